@@ -39,8 +39,8 @@ impl FileError {
     }
 
     /// The same error with the file's path.
-    pub fn in_file(self, file: &str) -> Self {
-        Self { file: Some(file.to_owned()), ..self }
+    pub fn in_file(self, file: &Path) -> Self {
+        Self { file: Some(file.to_string_lossy().into_owned()), ..self }
     }
 }
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
-use super::{Failure, check_outputs, load_run, open, progress};
+use super::{Failure, check_format, check_outputs, load_run, open, progress};
 use crate::cancel::CancelToken;
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
@@ -20,8 +20,9 @@ use crate::time::Time;
 use crate::tracer::Tracer;
 
 pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
-    let source = Path::new(&args.source);
-    check_outputs(&args.source, &outputs(args))?;
+    let source = args.source.as_path();
+    check_outputs(source, &outputs(args))?;
+    check_formats(args)?;
     if !is_run_file(source) {
         return export_scene(args);
     }
@@ -59,7 +60,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
 /// Exports a scene, for which there is only `--pov`.
 fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
     let opened = open(&args.source)?;
-    let (others, source) = (outputs(args), &args.source);
+    let (others, source) = (outputs(args), args.source.display());
     match (&args.pov, others.first()) {
         (Some(pov), _) if others.len() == 1 => {
             let default_size = || Size::new(640, 480).map_err(|error| Failure::Refused(error.to_string()));
@@ -76,6 +77,15 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
             )))
         }
     }
+}
+
+/// Checks the endings of the files; [`drawings`] checks those of drawings.
+fn check_formats(args: &ExportArgs) -> Result<(), Failure> {
+    check_format(args.pov.as_deref(), "a scene for POV-Ray", &["pov"])?;
+    check_format(args.csv.as_deref(), "a table", &["csv"])?;
+    check_format(args.trace.as_deref(), "a trace in JSON", &["json"])?;
+    check_format(args.gif.as_deref(), "an animated GIF", &["gif"])?;
+    check_format(args.png.as_deref(), "a PNG picture", &["png"])
 }
 
 /// The files to write.

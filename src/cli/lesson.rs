@@ -1,12 +1,14 @@
 //! `anel lesson`: prints the steps of a lesson and checks its claims.
 
+use std::path::Path;
+
 use super::{Failure, print, progress};
 use crate::cancel::CancelToken;
 use crate::language::Language;
 use crate::lesson::{BUILT_IN, Lesson};
 
 /// Plays the lesson `argument`; without one, lists the built-in lessons.
-pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
+pub(super) fn lesson(argument: Option<&Path>) -> Result<(), Failure> {
     let Some(argument) = argument else {
         for (name, _) in BUILT_IN {
             let lesson = Lesson::open(name).map_err(|error| Failure::Failed(error.to_string()))?;

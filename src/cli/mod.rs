@@ -23,7 +23,7 @@ use crate::driver::{auto_pace, cores};
 use crate::gui::{self, Opening, Settings};
 use crate::interrupt;
 use crate::language::Language;
-use crate::output::{as_file_name, check_writable, is_same_file, remove_temporary_files};
+use crate::output::{as_file_name, check_ending, check_writable, is_same_file, remove_temporary_files};
 use crate::runlog::{Header, RunLog, is_run_file};
 use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;
@@ -100,10 +100,10 @@ fn progress(steps: u64, template: &str) -> ProgressBar {
 }
 
 /// Refuses output files that cannot be written, or that would replace the scene or each other.
-fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
+fn check_outputs(scene: &Path, outputs: &[&Path]) -> Result<(), Failure> {
     for (index, output) in outputs.iter().enumerate() {
         check_writable(output).map_err(|error| Failure::Refused(error.to_string()))?;
-        let taken = [Path::new(scene)].into_iter().chain(outputs[..index].iter().copied());
+        let taken = [scene].into_iter().chain(outputs[..index].iter().copied());
         if let Some(other) = taken.into_iter().find(|other| is_same_file(output, other)) {
             return Err(Failure::Refused(format!(
                 "{} would be replaced by {}; choose another name",
@@ -113,6 +113,17 @@ fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Refuses a name whose ending stands for another format than the one that is written.
+fn check_format(path: Option<&Path>, format: &'static str, endings: &[&'static str]) -> Result<(), Failure> {
+    path.map_or(Ok(()), |path| check_ending(path, format, endings)).map_err(|error| Failure::Refused(error.to_string()))
+}
+
+/// Checks the endings of a picture and of a run file.
+fn check_picture_and_log(picture: Option<&Path>, log: Option<&Path>) -> Result<(), Failure> {
+    check_format(picture, "a PNG picture", &["png"])?;
+    check_format(log, "a run file", &["anel", "json", "jsonl"])
 }
 
 /// Reads a run file. If it is cut off, says so.
@@ -141,13 +152,14 @@ fn usage(error: clap::Error) -> Failure {
 
 /// Opens the window with a scene, a recorded run, a lesson, or the last one that was open. If no window can be opened,
 /// does the run without it.
-fn window(argument: Option<&str>, log: Option<PathBuf>) -> Result<(), Failure> {
+fn window(argument: Option<&Path>, log: Option<PathBuf>) -> Result<(), Failure> {
     let opening = match argument {
-        Some(path) if is_run_file(Path::new(path)) => Some(Opening::Run(Arc::new(load_run(Path::new(path))?))),
+        Some(path) if is_run_file(path) => Some(Opening::Run(Arc::new(load_run(path)?))),
         Some(path) => Some(Opening::read(path).map_err(Failure::Refused)?),
         None => None,
     };
-    check_outputs(argument.unwrap_or_default(), log.as_deref().as_slice())?;
+    check_outputs(argument.unwrap_or(Path::new("")), log.as_deref().as_slice())?;
+    check_picture_and_log(None, log.as_deref())?;
     show(opening, log)
 }
 
@@ -178,12 +190,12 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
     // Without a viewer the run may go at the full pace.
     header.pace = auto_pace(&header.speeds, header.cores);
     let out = free_name(&as_file_name(&header.scene));
-    check_outputs("", &[&out])?;
+    check_outputs(Path::new(""), &[&out])?;
     let tracer = Arc::new(Tracer::new(&scene, header.size, header.quality));
     render::run_and_save(&tracer, &header, None, &render::Outputs { out: &out, log: log.as_deref(), json: false })
 }
 
-fn open(argument: &str) -> Result<Opened, Failure> {
+fn open(argument: impl AsRef<Path>) -> Result<Opened, Failure> {
     Opened::new(argument).map_err(|error| Failure::Refused(error.to_string()))
 }
 

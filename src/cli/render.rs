@@ -10,7 +10,7 @@ use indicatif::ProgressBar;
 use super::args::RenderArgs;
 use super::report::Report;
 use super::run_header;
-use super::{Failure, check_outputs, load_run, open, print, print_path, progress, tell};
+use super::{Failure, check_outputs, check_picture_and_log, load_run, open, print, print_path, progress, tell};
 use crate::cancel::CancelToken;
 use crate::driver::{PartialPicture, Run, RunError, TracedPicture, Update, probe};
 use crate::interrupt::EndsEarly;
@@ -42,6 +42,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     let outputs: Vec<&Path> =
         [Some(&args.out), args.log.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     check_outputs(&args.scene, &outputs)?;
+    check_picture_and_log(Some(&args.out), args.log.as_deref())?;
     let measured = args.costs.as_deref().map(|path| measured(path, &header)).transpose()?;
     let tracer = Arc::new(Tracer::new(&opened.scene, header.size, header.quality));
     run_and_save(&tracer, &header, measured, &Outputs { out: &args.out, log: args.log.as_deref(), json: args.json })

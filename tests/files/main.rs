@@ -7,4 +7,5 @@ mod bad_input;
 mod chrome_trace;
 mod exports;
 mod fuzz;
+mod names;
 mod old_runs;

@@ -5,6 +5,7 @@ mod launch;
 mod main_area_layout;
 mod notices;
 mod repaint_schedule;
+mod stored_path;
 
 use std::time::Duration;
 
@@ -98,10 +99,10 @@ impl App {
         let settings = if stored.settings.check(language).is_ok() { stored.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
         session.set_language(language);
-        session.set_recent(stored.recent);
+        session.set_recent(stored.recent.iter().map(|path| stored_path::read(path)).collect());
         match (launch.opening, &stored.scene) {
             (Some(opening), _) => session.show(opening),
-            (None, Some(scene)) => session.open(scene),
+            (None, Some(scene)) => session.open(stored_path::read(scene)),
             (None, None) => session.open("ten-objects"),
         }
         let mut picture = PicturePanel::default();
@@ -170,7 +171,7 @@ impl App {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         let Some(first) = dropped.first().map(|file| file.path().to_owned()) else { return };
         self.gallery.close();
-        self.session.open(&first.to_string_lossy());
+        self.session.open(&first);
         if dropped.len() > 1 {
             let name = first.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let count = dropped.len();
@@ -376,13 +377,13 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn Storage) {
         let scene = self.session.opened().and_then(|opened| match &opened.path {
-            Some(path) => std::path::absolute(path).ok().map(|path| path.to_string_lossy().into_owned()),
+            Some(path) => std::path::absolute(path).ok().map(|path| stored_path::write(&path)),
             None => crate::scene::built_in(&opened.name).map(|_| opened.name.clone()),
         });
         let stored = StoredState {
             settings: self.session.settings().clone(),
             scene,
-            recent: self.session.recent().to_vec(),
+            recent: self.session.recent().iter().map(|path| stored_path::write(path)).collect(),
             blend: Some(self.picture.blend),
             is_setup_open: self.setup.open,
             shows_timeline: self.shows_timeline,

@@ -30,11 +30,11 @@ impl Session {
     }
 
     /// Reads a file or a built-in scene and shows it. Until then, and if that fails, the present run stays.
-    pub fn open(&mut self, argument: &str) {
+    pub fn open(&mut self, argument: impl AsRef<Path>) {
         let language = self.language;
-        let name =
-            Path::new(argument).file_name().map_or_else(|| argument.into(), |name| name.to_string_lossy().into());
-        if let Some(log) = self.log_path.as_deref().filter(|log| is_same_file(log, Path::new(argument))) {
+        let path = argument.as_ref().to_owned();
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        if let Some(log) = self.log_path.as_deref().filter(|log| is_same_file(log, &path)) {
             let log = log.display();
             return self.trouble(say!(
                 language,
@@ -43,8 +43,7 @@ impl Session {
             ));
         }
         self.camera_move = None;
-        let argument = argument.to_owned();
-        self.load(name, move || Opening::read(&argument));
+        self.load(name, move || Opening::read(path));
     }
 
     /// Reads the file of the scene again.
@@ -53,7 +52,7 @@ impl Session {
         if !self.is_recorded()
             && let Some(path) = self.opened().and_then(|opened| opened.path.clone())
         {
-            self.open(&path.to_string_lossy());
+            self.open(path);
         }
     }
 
@@ -105,7 +104,7 @@ impl Session {
         if let Some(recorded) = &mut self.recorded {
             Arc::make_mut(&mut recorded.log).header.caption = caption.clone();
         }
-        self.remember(path.to_string_lossy().into_owned());
+        self.remember(path.clone());
         self.jobs.save_run(path, self.stage.log.clone(), language);
     }
 
@@ -175,7 +174,7 @@ impl Session {
         let language = self.language;
         let path = prepared.opened.path.clone();
         if let Some(path) = &path {
-            self.remember(path.to_string_lossy().into_owned());
+            self.remember(path.clone());
         }
         self.jobs.watch(path, language);
         if !self.is_camera_moving() {
@@ -217,17 +216,17 @@ impl Session {
     }
 
     /// Returns the files that were opened last, the latest first.
-    pub fn recent(&self) -> &[String] {
+    pub fn recent(&self) -> &[PathBuf] {
         &self.recent
     }
 
     /// Sets the files that were opened in earlier windows.
-    pub fn set_recent(&mut self, recent: Vec<String>) {
+    pub fn set_recent(&mut self, recent: Vec<PathBuf>) {
         self.recent = recent;
     }
 
     /// Puts the file first among the recent ones.
-    fn remember(&mut self, file: String) {
+    fn remember(&mut self, file: PathBuf) {
         const MAX_RECENT: usize = 8;
         self.recent.retain(|other| *other != file);
         self.recent.insert(0, file);

@@ -29,7 +29,7 @@ pub enum JobResult {
     /// The file dialog has closed; `None` if it was cancelled or is not available.
     Chosen(Purpose, Option<PathBuf>),
     /// The thumbnail of a scene, by the scene's name or path, or the reason why there is none.
-    Thumbnail(String, Result<Thumbnail, String>),
+    Thumbnail(PathBuf, Result<Thumbnail, String>),
     /// A part of the measurement of speed and accuracy.
     Found(u64, Finding),
     /// A part of a comparison.

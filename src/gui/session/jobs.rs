@@ -67,6 +67,7 @@ impl Jobs {
             if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
                 dialog = dialog.set_directory(directory);
             }
+            // The dialogs take text only.
             let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let chosen = match purpose {
                 Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
@@ -78,7 +79,7 @@ impl Jobs {
     }
 
     /// Traces thumbnails of these scenes, one after the other.
-    pub fn thumbnails(&self, scenes: Vec<String>, language: Language) {
+    pub fn thumbnails(&self, scenes: Vec<PathBuf>, language: Language) {
         self.start_many(
             language,
             "thumbnails",

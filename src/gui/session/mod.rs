@@ -78,7 +78,7 @@ pub struct Session {
     /// File for the records of each run (`--log`).
     log_path: Option<PathBuf>,
     /// Recently opened files, the latest first.
-    recent: Vec<String>,
+    recent: Vec<PathBuf>,
     /// Background colour of the picture.
     ground: Rgb,
     /// While the time is dragged: whether it was stopped before.
