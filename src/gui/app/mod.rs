@@ -4,6 +4,7 @@ mod commands;
 mod launch;
 mod main_area_layout;
 mod notices;
+mod quitting;
 mod repaint_schedule;
 mod stored_path;
 
@@ -37,6 +38,7 @@ use crate::time::Time;
 use crate::view::{Details, Highlight, Subject};
 pub use launch::Launch;
 use main_area_layout::split_main_area;
+use quitting::Quitting;
 
 /// The content of the window.
 pub struct App {
@@ -65,6 +67,7 @@ pub struct App {
     runs_begun: usize,
     /// Presentation mode: large text, strong colours, no controls.
     projector: bool,
+    quitting: Quitting,
 }
 
 /// The state that the next window restores, beside egui's own.
@@ -127,6 +130,7 @@ impl App {
             narration_rect: None,
             runs_begun: 0,
             projector: stored.projector,
+            quitting: Quitting::default(),
         }
     }
 
@@ -346,6 +350,7 @@ impl eframe::App for App {
                 _ => {}
             }
         }
+        self.close_when_written(ctx);
         if let Some(selected) = self.learn.tick(&mut self.session) {
             self.selection.selected = selected;
             self.shows_timeline = self.learn.wants_timeline().unwrap_or(self.shows_timeline);
@@ -367,6 +372,7 @@ impl eframe::App for App {
         ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
         self.panels(ui);
         self.notices(ui.ctx());
+        self.ask_to_quit(ui.ctx());
         if self.help && help::show(ui.ctx(), language) {
             self.help = false;
         }

@@ -84,7 +84,10 @@ impl Session {
         self.note_saving(&path);
         let Stage { frame, colours, .. } = &self.stage;
         let (frame, state, colours) = (frame.clone(), self.stage.latest().clone(), colours.clone());
-        self.jobs.save_picture(path, frame.size(), move || picture_pixels(&frame, &state, &colours, look), language);
+        let name = file_name(&path);
+        let pixels = move || picture_pixels(&frame, &state, &colours, look);
+        let job = self.jobs.save_picture(path, self.stage.frame.size(), pixels, language);
+        self.saving.insert(job, name);
     }
 
     /// Returns the picture, as far as it is traced, for the clipboard.
@@ -96,7 +99,6 @@ impl Session {
 
     /// Writes the run so far in the background, with a title and a memo.
     pub fn save_run(&mut self, path: PathBuf, title: &str, memo: &str) {
-        let language = self.language;
         self.note_saving(&path);
         let caption = &mut self.stage.log.header.caption;
         (caption.title, caption.memo) = (title.trim().to_owned(), memo.trim().to_owned());
@@ -105,7 +107,29 @@ impl Session {
             Arc::make_mut(&mut recorded.log).header.caption = caption.clone();
         }
         self.remember(path.clone());
-        self.jobs.save_run(path, self.stage.log.clone(), language);
+        self.save_log(path);
+    }
+
+    /// Returns the names of the files that are being written. For the export in progress it also returns the share that
+    /// is done, 0 to 1.
+    pub fn files_in_progress(&self) -> Vec<(&str, Option<f64>)> {
+        let export = self.export_progress().map(|(name, _, share)| (name, Some(share)));
+        export.into_iter().chain(self.saving.values().map(|name| (&**name, None))).collect()
+    }
+
+    /// Takes the result of saving a file.
+    pub(super) fn take_saved(&mut self, job: u64, result: Result<String, String>) {
+        self.saving.remove(&job);
+        match result {
+            Ok(message) => self.note(message),
+            Err(why) => self.trouble(why),
+        }
+    }
+
+    fn save_log(&mut self, path: PathBuf) {
+        let name = file_name(&path);
+        let job = self.jobs.save_run(path, self.stage.log.clone(), self.language);
+        self.saving.insert(job, name);
     }
 
     fn note_saving(&mut self, path: &Path) {
@@ -155,10 +179,9 @@ impl Session {
     }
 
     /// Writes the records in the background to the file of `--log`, if given.
-    pub(super) fn write_log(&self) {
-        let language = self.language;
+    pub(super) fn write_log(&mut self) {
         if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.source) {
-            self.jobs.save_run(path.clone(), self.stage.log.clone(), language);
+            self.save_log(path.clone());
         }
     }
 
@@ -198,7 +221,7 @@ impl Session {
     /// Shows the notice that the open file has changed or was deleted.
     pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {
         let language = self.language;
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = file_name(path);
         self.notice = Some(match change {
             FileChange::Written => {
                 let text = say!(language, "{name} has changed on disk", "{name} mudou no disco");
@@ -232,4 +255,9 @@ impl Session {
         self.recent.insert(0, file);
         self.recent.truncate(MAX_RECENT);
     }
+}
+
+/// Returns the name of a file as text.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
