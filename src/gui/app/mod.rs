@@ -30,6 +30,7 @@ use super::panels::timeline::{self, TimelinePanel};
 use super::panels::{inspector, narration, nodes, notice, ring, top_bar};
 use super::session::{JobResult, Purpose, Session};
 use super::settings::Settings;
+use super::widgets::number::RefusedNumber;
 use super::widgets::test_positions;
 use super::widgets::theme::{self, GRID, Look};
 use crate::balance::NodeId;
@@ -371,6 +372,9 @@ impl eframe::App for App {
         }
         ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
         self.panels(ui);
+        if let Some(refused) = RefusedNumber::take(ui.ctx()) {
+            self.session.trouble(refused.sentence(language));
+        }
         self.notices(ui.ctx());
         self.ask_to_quit(ui.ctx());
         if self.help && help::show(ui.ctx(), language) {

@@ -248,7 +248,7 @@ impl SaveBar {
                 1..=MAX_SIDE_PX,
                 "",
                 9.0 * GRID,
-                word!(language, "Pixels across", "Pixels na horizontal"),
+                (word!(language, "Pixels across", "Pixels na horizontal"), language),
             );
             ui.label(quiet("×"));
             number_field(
@@ -257,7 +257,7 @@ impl SaveBar {
                 1..=MAX_SIDE_PX,
                 "",
                 9.0 * GRID,
-                word!(language, "Pixels down", "Pixels na vertical"),
+                (word!(language, "Pixels down", "Pixels na vertical"), language),
             );
             ui.label(quiet(word!(language, "samples a pixel, n × n:", "amostras por pixel, n × n:")));
             number_field(
@@ -266,7 +266,7 @@ impl SaveBar {
                 1..=16,
                 "",
                 6.0 * GRID,
-                word!(language, "Samples a pixel", "Amostras por pixel"),
+                (word!(language, "Samples a pixel", "Amostras por pixel"), language),
             );
         });
         if size != self.large_size(session) {
