@@ -11,7 +11,7 @@ use super::playback::snapshots::Snapshot;
 use super::ring::layout::RingLayout;
 use super::ring::{RingOverlay, ring};
 use super::state::lanes::Lanes;
-use super::text::format::{duration, fraction, node_name, time_words};
+use super::text::format::{TimeScale, duration, fraction, node_name, time_words};
 use super::timeline::layout::TimelineLayout;
 use super::timeline::time_window::TimeWindow;
 use super::timeline::{axis, timeline};
@@ -64,8 +64,11 @@ impl PrintedDrawing {
         let layout = RingLayout::new(state.nodes().len(), room, language);
         let drawn = ring(&layout, state, &overlay, drawn_at, language);
         marks.extend(drawn.into_iter().map(|mark| mark.moved([MARGIN, top])));
-        let sentence =
-            format!("At {}: {}", time_words(at, grain(log), language), snapshot.narrator.sentence(state, at, language));
+        let sentence = format!(
+            "At {}: {}",
+            time_words(at, TimeScale::of_length(log.end()), language),
+            snapshot.narrator.sentence(state, at, language)
+        );
         let size = fitting(&sentence, TextSize::BODY, width - 2.0 * MARGIN);
         marks.push(label([width / 2.0, height - MARGIN], Anchor::Centre, sentence, size, Hue::Text));
         Self { marks, size: RING_SIZE }
@@ -157,7 +160,7 @@ fn time_axis(log: &RunLog, window: &TimeWindow, layout: &TimelineLayout, marks: 
     for time in times {
         let x = layout.width * window.share(time) as f32;
         marks.push(Mark::Line { points: vec![[x, y], [x, y + 5.0]], width: 1.0, ink });
-        let words = time_words(time, rate.min(grain(log)), language);
+        let words = time_words(time, TimeScale::of_length(log.end()).at_rate(rate), language);
         let half = TextSize::Small(1.0).width(words.chars().count()) / 2.0;
         let x = x.clamp(half.min(0.0), layout.width - half);
         let anchor = if x < half { Anchor::Left } else { Anchor::Centre };
@@ -191,11 +194,6 @@ fn heading(log: &RunLog, summary: Option<&Summary>, width: f32, marks: &mut Vec<
         marks.push(label([MARGIN, y], Anchor::Left, line, TextSize::Small(size), hue));
     }
     y + 20.0
-}
-
-/// Returns the precision of times, as a rate: finer for a shorter run.
-fn grain(log: &RunLog) -> f64 {
-    (log.end().secs() / 2.0).clamp(1e-9, 1.0)
 }
 
 /// Returns the text size, at most `size`, at which a text is at most `width` wide.

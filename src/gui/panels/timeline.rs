@@ -13,8 +13,8 @@ use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
-    Details, Highlight, Subject, TimeWindow, Timeline, TimelineLayout, activity_word, axis, bytes_words, count,
-    fraction, node_name, time_words, timeline, timeline_at,
+    Details, Highlight, Subject, TimeScale, TimeWindow, Timeline, TimelineLayout, activity_word, axis, bytes_words,
+    count, fraction, node_name, time_words, timeline, timeline_at,
 };
 
 /// Width of the heads left of the lanes (number, slider, speed), in points.
@@ -85,13 +85,14 @@ impl TimelinePanel {
         let stage = session.stage();
         describe(&response, stage, language);
         if let Some(details) = hovered.filter(|_| response.hovered() && !response.dragged()) {
-            let (title, more) = details.words(stage.state(), stage.now(), stage.grain(), language);
+            let (title, more) = details.words(stage.state(), stage.now(), stage.playback_scale(), language);
             response.clone().on_hover_text_at_pointer(format!("{title}\n{more}"));
         }
         let painter = ui.painter_at(lanes.expand(1.0));
         self.paint(&painter, lanes, &layout, stage, highlight, look);
         usage(&ui.painter_at(area), area, &layout, stage, look, language);
-        self.axis(&painter, lanes, &layout, look, language);
+        let scale = TimeScale::of_length(stage.shown_length());
+        self.axis(&painter, lanes, &layout, scale, look, language);
         for node in 0..nodes as NodeId {
             let [top, bottom] = layout.lane(node).map(|y| area.top() + y);
             let row = Rect::from_min_max(pos2(area.left(), top), pos2(area.left() + left - GRID, bottom));
@@ -127,7 +128,15 @@ impl TimelinePanel {
     }
 
     /// Paints the time axis below the lanes.
-    fn axis(&self, painter: &Painter, lanes: Rect, layout: &TimelineLayout, look: Look, language: Language) {
+    fn axis(
+        &self,
+        painter: &Painter,
+        lanes: Rect,
+        layout: &TimelineLayout,
+        scale: TimeScale,
+        look: Look,
+        language: Language,
+    ) {
         if layout.axis_height == 0.0 {
             return;
         }
@@ -136,8 +145,8 @@ impl TimelinePanel {
         for time in times {
             let x = lanes.left() + lanes.width() * self.window.share(time) as f32;
             painter.line_segment([pos2(x, top), pos2(x, top + 4.0)], Stroke::new(1.0, look.quiet));
-            let galley =
-                painter.layout_no_wrap(time_words(time, rate, language), theme::regular(theme::SMALL), look.quiet);
+            let words = time_words(time, scale.at_rate(rate), language);
+            let galley = painter.layout_no_wrap(words, theme::regular(theme::SMALL), look.quiet);
             let left = (x + 4.0).min(lanes.right() - galley.size().x);
             painter.galley(pos2(left, top + 2.0), galley, look.quiet);
         }
@@ -331,7 +340,7 @@ fn usage_figures(stage: &Stage, language: Language) -> [String; 4] {
 fn describe(response: &Response, stage: &Stage, language: Language) {
     widgets::describe(response, word!(language, "Timeline", "Linha do tempo"), || {
         let [until, length] =
-            [stage.lasted(), stage.shown_length()].map(|time| time_words(time, stage.grain(), language));
+            [stage.lasted(), stage.shown_length()].map(|time| time_words(time, stage.playback_scale(), language));
         let is_over = stage.phase == Phase::Finished && !stage.hides_later;
         let of = if is_over { word!(language, "in all", "ao todo") } else { word!(language, "so far", "até agora") };
         let usage = usage_figures(stage, language).join(" · ");

@@ -9,7 +9,7 @@ use crate::runlog::{Metrics, RunLog};
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
-use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name, seconds_words};
+use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name};
 
 /// Result of a finished run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,17 +37,17 @@ impl Summary {
 /// Returns the figures of the result with their captions.
 pub fn summary_figures(summary: &Summary, language: Language) -> [(String, &'static str); 4] {
     [
-        (seconds(summary.makespan, language), word!(language, "start to finish", "início ao fim")),
-        (seconds(summary.ideal, language), word!(language, "shared perfectly", "divisão perfeita")),
+        (duration(summary.makespan, language), word!(language, "start to finish", "início ao fim")),
+        (duration(summary.ideal, language), word!(language, "shared perfectly", "divisão perfeita")),
         (fraction(summary.efficiency), word!(language, "efficiency", "eficiência")),
-        (seconds(summary.spread, language), word!(language, "first to last done", "da 1ª à última")),
+        (duration(summary.spread, language), word!(language, "first to last done", "da 1ª à última")),
     ]
 }
 
 /// Says how well the work was shared, which machines did most and least of it, and why.
 pub fn result_words(state: &RunState, summary: &Summary, language: Language) -> String {
     let [takes, ideal, spread] =
-        [summary.makespan, summary.ideal, summary.spread].map(|length| seconds(length, language));
+        [summary.makespan, summary.ideal, summary.spread].map(|length| duration(length, language));
     let efficiency = fraction(summary.efficiency);
     let mut words = say!(
         language,
@@ -74,15 +74,6 @@ pub fn result_words(state: &RunState, summary: &Summary, language: Language) -> 
         words += &format!(". {parts}");
     }
     words
-}
-
-/// Writes a length in seconds with a decimal, or in a smaller unit if it is shorter than 0.1 s.
-fn seconds(length: Duration, language: Language) -> String {
-    if length < Duration::from_millis(95) {
-        duration(length, language)
-    } else {
-        seconds_words(length.as_secs_f64(), language)
-    }
 }
 
 /// Says which machines did most and least of the work, and why, or which machine all others waited for. `None` if all
@@ -119,7 +110,7 @@ fn waited_for(state: &RunState, language: Language) -> Option<String> {
     let is_long = waited.as_secs_f64() > 0.05 * end;
     let slow = state.nodes().get(usize::from(last)).map(|node| at_speed(state, node, language)).unwrap_or_default();
     is_long.then(|| {
-        let (last, first, waited) = (node_name(last), node_name(first), seconds(waited, language));
+        let (last, first, waited) = (node_name(last), node_name(first), duration(waited, language));
         say!(
             language,
             "All waited for {last}, {slow}: {first} was done {waited} before it, and no machine took over atoms",

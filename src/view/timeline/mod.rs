@@ -42,7 +42,7 @@ pub fn timeline(lanes: &Lanes, window: &TimeWindow, layout: &TimelineLayout, hea
 }
 
 /// Returns round times for the axis below the lanes, far enough apart for their words, and the precision of these
-/// words, as a rate for [`time_words`](super::text::format::time_words).
+/// words, as a rate for [`TimeScale::at_rate`](super::text::format::TimeScale::at_rate).
 pub fn axis(window: &TimeWindow, width: f32) -> (Vec<Time>, f64) {
     const MIN_TICK_DISTANCE_PX: f64 = 110.0;
     let length = (window.to().0 - window.from().0) as f64;
