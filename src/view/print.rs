@@ -133,10 +133,11 @@ impl PrintedDrawing {
 
 /// Draws number and speed of the machines, as many as there is room for, and the caption of the strip above them.
 fn lane_labels(log: &RunLog, layout: &TimelineLayout, marks: &mut Vec<Mark>) {
-    let every = (TextSize::SMALL / layout.lane_height).ceil().max(1.0) as usize;
-    for (node, speed) in (0..).zip(&log.header.speeds).step_by(every) {
+    let is_low = layout.lane_height < TextSize::BODY;
+    for node in layout.numbered(if is_low { TextSize::BODY } else { 0.0 }) {
         let [top, bottom] = layout.lane(node);
-        let (y, size) = ((top + bottom) / 2.0, TextSize::Small(if every > 1 { 0.8 } else { 1.0 }));
+        let (y, size) = ((top + bottom) / 2.0, TextSize::Small(if is_low { 0.8 } else { 1.0 }));
+        let speed = &log.header.speeds[usize::from(node)];
         marks.push(label([-56.0, y], Anchor::Right, node_name(node).to_string(), TextSize::Body(0.9), Hue::Text));
         marks.push(label([-8.0, y], Anchor::Right, fraction(*speed), size, Hue::Quiet));
     }

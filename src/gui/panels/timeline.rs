@@ -23,6 +23,9 @@ const HEAD_WIDTH_PT: f32 = 20.0 * GRID;
 /// Least height of a lane whose head has a slider, in points.
 const MIN_SLIDER_LANE_PT: f32 = 16.0;
 
+/// Least height of a lane whose number stands in its chip, in points.
+const MIN_NUMBERED_LANE_PT: f32 = 15.0;
+
 /// The timeline panel.
 #[derive(Default)]
 pub struct TimelinePanel {
@@ -97,6 +100,9 @@ impl TimelinePanel {
             let [top, bottom] = layout.lane(node).map(|y| area.top() + y);
             let row = Rect::from_min_max(pos2(area.left(), top), pos2(area.left() + left - GRID, bottom));
             lane_head(ui, row, node, session, selection, highlight.nodes.contains(&node));
+        }
+        if layout.lane_height < MIN_NUMBERED_LANE_PT {
+            numbers(ui.painter(), area, &layout, look);
         }
     }
 
@@ -283,15 +289,10 @@ fn lane_head(
         let stroke = Stroke::new(1.5, look.text);
         ui.painter().rect_stroke(chip.expand(1.0), 4.0, stroke, egui::StrokeKind::Outside);
     }
-    // Numbers of low lanes stand beside the chips, and only every nth has room.
-    let each = (13.0 / row.height().max(1.0)).ceil() as u16;
-    if each == 1 {
+    if row.height() >= MIN_NUMBERED_LANE_PT - 2.0 {
         let ink = theme::colour(text_on(own));
         let font = theme::strong(theme::SMALL.min(row.height()));
         ui.painter().text(chip.center(), Align2::CENTER_CENTER, node_name(node), font, ink);
-    } else if node.is_multiple_of(each) {
-        let left = pos2(chip.right() + GRID, row.center().y);
-        ui.painter().text(left, Align2::LEFT_CENTER, node_name(node), theme::regular(11.0), look.quiet);
     }
     if row.height() >= MIN_SLIDER_LANE_PT {
         let slider = Rect::from_min_max(pos2(chip.right() + GRID, row.top()), row.max);
@@ -300,6 +301,16 @@ fn lane_head(
         let speed = fraction(session.speed(node));
         let right = pos2(slider.right(), row.center().y);
         ui.painter().text(right, Align2::RIGHT_CENTER, speed, theme::regular(theme::SMALL), look.quiet);
+    }
+}
+
+/// Paints the numbers of low lanes beside their chips, as many as have room.
+fn numbers(painter: &Painter, area: Rect, layout: &TimelineLayout, look: Look) {
+    let chip_width = 2.5 * GRID;
+    for node in layout.numbered(MIN_NUMBERED_LANE_PT) {
+        let [top, bottom] = layout.lane(node);
+        let left = pos2(area.left() + chip_width + GRID / 2.0, area.top() + (top + bottom) / 2.0);
+        painter.text(left, Align2::LEFT_CENTER, node_name(node), theme::regular(11.0), look.quiet);
     }
 }
 

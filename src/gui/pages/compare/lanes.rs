@@ -5,7 +5,6 @@ use egui::{Align2, Painter, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 use super::CompareColumn;
 use super::columns::letter;
-use crate::balance::NodeId;
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
@@ -111,8 +110,7 @@ fn run_lanes(
 
 /// Paints the machines' numbers, every nth if lanes are low.
 fn numbers(painter: &Painter, strip: Rect, layout: &TimelineLayout, look: Look) {
-    let every = (theme::SMALL / layout.lane_height).ceil().max(1.0) as usize;
-    for node in (0..layout.lanes as NodeId).step_by(every) {
+    for node in layout.numbered(theme::SMALL) {
         let [top, bottom] = layout.lane(node);
         let at = pos2(strip.left() - 0.5 * GRID, strip.top() + (top + bottom) / 2.0);
         painter.text(at, Align2::RIGHT_CENTER, node_name(node), theme::regular(theme::SMALL), look.quiet);
