@@ -1,5 +1,6 @@
 //! `anel export`: writes a recorded run or a scene in the formats of other programs.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -8,7 +9,7 @@ use std::sync::Arc;
 use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
-use super::{Failure, check_format, check_outputs, load_run, open, progress};
+use super::{Failure, check_format, check_outputs, load_run, open, progress, tell};
 use crate::cancel::CancelToken;
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Drawing, Film, to_pov, write_chrome, write_csv};
@@ -41,7 +42,18 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
         write(path, |file| write_chrome(file, &log))?;
     }
     for (path, drawing, is_png) in drawings {
-        write(path, |file| drawing.write(file, &log, is_png))?;
+        let mut missing = BTreeSet::new();
+        write(path, |file| {
+            missing = drawing.write(file, &log, is_png)?;
+            Ok(())
+        })?;
+        if !missing.is_empty() {
+            let (path, letters) = (path.display(), missing.iter().collect::<String>());
+            tell(&format!(
+                "{path}: no font of this computer has {letters}; they are drawn as boxes. Install such a font, or \
+                 export the drawing as .svg"
+            ));
+        }
     }
     if args.png.is_none() && args.gif.is_none() {
         return Ok(());

@@ -136,7 +136,7 @@ impl<'a> FilmFrames<'a> {
             look: film.look,
             snapshot: Snapshot::new(header),
             canvas,
-            raster: Raster::new(),
+            raster: Raster::new(""),
             layout,
             outcome: Summary::of(log),
             end,
