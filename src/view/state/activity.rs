@@ -170,7 +170,7 @@ mod tests {
             }
         }
         for kind in ["NoBand", "Tracing", "Offering", "Receiving", "Done"] {
-            assert!(seen.contains(&(1, kind.to_owned())), "{what} {seen:?}");
+            assert!(seen.contains(&(1, kind.to_owned())), "{kind} {seen:?}");
         }
         assert!(state.nodes[1].done > 20 && state.nodes[2].done < 20, "{:?}", state.nodes);
         let idle: Vec<_> = state.nodes.iter().map(|node| node.idle(state.head())).collect();

@@ -203,7 +203,7 @@ mod tests {
             Scheduler::WorkStealing => header = Header { driver: Driver::WorkStealing, ..header },
         }
         let mut state = RunState::new(&header);
-        let mut apply = |what| state.apply(&Record { at: Time::ZERO, kind });
+        let mut apply = |kind| state.apply(&Record { at: Time::ZERO, kind });
         let mut send = |id, from, to, message| {
             apply(RecordKind::Sent { id, from, to, message, bytes: 0, arrives: Time::ZERO });
             apply(RecordKind::Received { id, by: to });
