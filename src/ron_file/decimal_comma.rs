@@ -12,7 +12,7 @@ fn around(text: &str, at: usize) -> Option<&str> {
     let is_part = |c: char| c.is_ascii_digit() || c == ',';
     let start = text[..at].trim_end_matches(is_part).len();
     let end = at + text[at..].find(|c| !is_part(c)).unwrap_or(text.len() - at);
-    let number = &text[start..end];
+    let number = text[start..end].trim_end_matches(',');
     let (whole, decimals) = number.split_once(',')?;
     let is_number = |digits: &str| !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit());
     // Of a longer list, as in (0,1,0), no number has a comma.

@@ -52,7 +52,7 @@ fn latency_applies_to_the_current_run() {
     until(&mut window, "a record", |window| set(window).last() == Some(&Duration::ZERO));
     assert!(done(&window) > 100);
     ctrl(&mut window, Key::Z);
-    assert_eq!(session(&window).settings().latency, 250);
+    assert_eq!(session(&window).settings().latency, 250.0);
 }
 
 #[test]
