@@ -27,8 +27,8 @@ pub(super) struct Args {
 pub(super) enum CliCommand {
     /// Trace a scene without a window and save the picture
     ///
-    /// Ctrl C, or another signal that ends programs, ends the run early: the picture so far and its records are written,
-    /// and the exit code is 128 plus the number of the signal. A second signal ends the program at once.
+    /// Ctrl C, or another signal that ends programs, ends the run early: the picture so far and its records are
+    /// written, and the exit code is 128 plus the number of the signal. A second signal ends the program at once.
     Render(RenderArgs),
     /// Explain the colour and the cost of a pixel
     Inspect(InspectArgs),

@@ -69,8 +69,8 @@ impl Comparison {
         table.flush()
     }
 
-    /// Writes the time budgets of the runs that end as a bar chart: as PNG if `is_png`, else as SVG. Returns the letters
-    /// that no font of this computer has, and that are drawn as boxes.
+    /// Writes the time budgets of the runs that end as a bar chart: as PNG if `is_png`, else as SVG. Returns the
+    /// letters that no font of this computer has, and that are drawn as boxes.
     ///
     /// # Errors
     /// The error of writing to `to`; an [`ExportError`](super::ExportError), if the chart cannot become pixels.

@@ -21,7 +21,8 @@ pub struct Opened {
 }
 
 impl Opened {
-    /// Reads the scene file at the path `argument`, which need not be UTF-8, or the built-in scene of that name if there is no such file.
+    /// Reads the scene file at the path `argument`, which need not be UTF-8, or the built-in scene of that name if
+    /// there is no such file.
     ///
     /// # Errors
     /// A [`FileError`] that names the file.

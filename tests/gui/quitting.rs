@@ -65,8 +65,8 @@ fn window_closes_when_the_file_is_written() {
     let path = directory.path().join("small.png");
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);
-    save(&mut window, &path, Size::new(900, 600).expect("a size"), "4");
+    save(&mut window, &path, Size::new(400, 300).expect("a size"), "4");
     assert!(close(&mut window).contains(&ViewportCommand::CancelClose));
     until(&mut window, "the end", |window| commands(window).contains(&ViewportCommand::Close));
-    assert_eq!(image::image_dimensions(&path).expect("a PNG"), (900, 600));
+    assert_eq!(image::image_dimensions(&path).expect("a PNG"), (400, 300));
 }

@@ -166,7 +166,7 @@ const STRONG: &str = "strong";
 fn font_of_the_system(request: &FallbackRequest<'_>) -> Option<FontInsert> {
     let letter = request.cluster.chars().next()?;
     let SystemFont { data, index } = system_font(letter)?;
-    let name = format!("font with {letter}");
+    let name = format!("system: {letter}");
     Some(FontInsert { name, data: FontData::from_blob(Arc::new(data), index), families: Vec::new() })
 }
 
