@@ -13,7 +13,8 @@ pub mod palette; // the colours of nodes, and neutral colours
 pub mod sentence; // quotes from files in error messages
 pub mod time; // nanoseconds since the start of the run
 
-// Layer 1: the picture, and text files.
+// Layer 1: signals, the picture, and text files.
+pub mod interrupt; // what a signal does: no temporary file stays, and work may end early
 pub mod picture; // size, division into atoms and bands, frame, PNG
 pub mod ron_file; // text files in RON, with errors that name the place
 

@@ -1,8 +1,10 @@
 //! Atomic writing of files: a file is complete or does not exist.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 use thiserror::Error;
@@ -34,6 +36,16 @@ pub enum PathProblem {
     /// The path ends in a separator, `.` or `..`.
     #[error("it does not name a file")]
     NoFileName,
+    /// The ending of the name stands for another format.
+    #[error("the file will be {format}, not .{ending}; give its name the ending .{own}")]
+    OtherFormat {
+        /// The format that is written.
+        format: &'static str,
+        /// The ending of the name.
+        ending: String,
+        /// The usual ending of the format.
+        own: &'static str,
+    },
     /// No usual file system takes so long a name.
     #[error("its name is longer than {MAX_NAME_BYTES} bytes")]
     LongName,
@@ -60,6 +72,17 @@ pub enum PathProblem {
 /// The longest file name of all usual file systems.
 const MAX_NAME_BYTES: usize = 255;
 
+/// Endings of well-known formats. A name with another ending, such as `picture.v2`, says nothing about the format.
+const KNOWN_ENDINGS: &[&str] = &[
+    "anel", "apng", "avif", "avi", "bmp", "csv", "doc", "docx", "eps", "exr", "gif", "heic", "hdr", "htm", "html",
+    "ico", "ini", "jfif", "jpe", "jpeg", "jpg", "json", "jsonl", "jxl", "md", "mkv", "mov", "mp4", "ods", "odt", "pbm",
+    "pdf", "pgm", "png", "pnm", "pov", "ppm", "ps", "psd", "qoi", "ron", "svg", "svgz", "tga", "tif", "tiff", "tsv",
+    "webm", "webp", "xcf", "xls", "xlsx", "xml", "zip",
+];
+
+/// The paths of the temporary files of this process. Whoever makes, renames or removes one holds the lock.
+static TEMPORARY_FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
 /// Checks that a file can be written to `path`, before its content is made.
 ///
 /// # Errors
@@ -79,20 +102,44 @@ pub fn write_whole(
 ) -> Result<(), OutputError> {
     let (mut file, target) = begin(path)?;
     let write = || {
-        let mut buffer = BufWriter::new(file.as_file_mut());
+        let mut buffer = BufWriter::new(file.file_mut());
         fill(&mut buffer)?;
         buffer.flush()?;
         drop(buffer);
         // The permissions of an existing file stay.
         if let Ok(before) = fs::metadata(&target) {
-            file.as_file().set_permissions(before.permissions())?;
+            file.file_mut().set_permissions(before.permissions())?;
         }
         // Some systems report a full disk only here.
-        file.as_file().sync_all()?;
-        file.persist(&target)?;
-        Ok(())
+        file.file_mut().sync_all()?;
+        file.complete(&target)
     };
     write().map_err(|source| OutputError::Write { path: path.to_owned(), source })
+}
+
+/// Checks that the ending of `path` does not stand for another format than the one that is written. `format` names that
+/// format, and `endings` are its endings; the first is the usual one. A name without an ending is valid.
+///
+/// # Errors
+/// [`OutputError::Path`], if the ending is that of another well-known format.
+pub fn check_ending(path: &Path, format: &'static str, endings: &[&'static str]) -> Result<(), OutputError> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    if endings.contains(&&*ending) || !KNOWN_ENDINGS.contains(&&*ending) {
+        return Ok(());
+    }
+    let own = endings.first().copied().unwrap_or_default();
+    Err(OutputError::Path { path: path.to_owned(), problem: PathProblem::OtherFormat { format, ending, own } })
+}
+
+/// Removes the temporary files of this process, which ends now: no file can be begun or completed afterwards.
+pub fn remove_temporary_files() {
+    let files = lock();
+    for file in files.iter() {
+        // It may be gone already.
+        let _ = fs::remove_file(file);
+    }
+    // The lock is never released, so that no thread makes or renames a temporary file until the process ends.
+    std::mem::forget(files);
 }
 
 /// Makes a name safe as part of a file name: replaces characters with a meaning to file systems by hyphens, and cuts
@@ -118,10 +165,10 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
 }
 
 /// A temporary file beside the final path of `path`, and that path.
-fn begin(path: &Path) -> Result<(NamedTempFile, PathBuf), OutputError> {
+fn begin(path: &Path) -> Result<(TemporaryFile, PathBuf), OutputError> {
     let refuse = |problem| OutputError::Path { path: path.to_owned(), problem };
     let target = target(path).map_err(refuse)?;
-    let file = temporary_beside(&target).map_err(|error| match error.kind() {
+    let file = TemporaryFile::beside(&target).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => refuse(PathProblem::NoDirectory),
         kind => refuse(PathProblem::System(kind)),
     })?;
@@ -152,17 +199,57 @@ fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// A temporary file in the directory of `path`, so that it can be renamed to it. It is removed when dropped.
-fn temporary_beside(path: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".anel-").suffix(".part");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // The umask decides who can read it; temporary files are private by default.
-        builder.permissions(fs::Permissions::from_mode(0o666));
+/// A temporary file that is removed when dropped, and by [`remove_temporary_files`].
+struct TemporaryFile {
+    /// `None` once it is renamed or removed.
+    file: Option<NamedTempFile>,
+}
+
+impl TemporaryFile {
+    /// Makes a file in the directory of `path`, so that it can be renamed to it.
+    fn beside(path: &Path) -> io::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".anel-").suffix(".part");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // The umask decides who can read it; temporary files are private by default.
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let mut files = lock();
+        let file = builder.tempfile_in(directory_of(path))?;
+        files.insert(file.path().to_owned());
+        Ok(Self { file: Some(file) })
     }
-    builder.tempfile_in(directory_of(path))
+
+    fn file_mut(&mut self) -> &mut File {
+        self.file.as_mut().expect("only `complete` and `drop` take the file").as_file_mut()
+    }
+
+    /// Renames the file to `target`.
+    fn complete(mut self, target: &Path) -> io::Result<()> {
+        let mut files = lock();
+        let Some(file) = self.file.take() else { return Ok(()) };
+        files.remove(file.path());
+        // If this fails the error has the file, which is removed with it.
+        file.persist(target)?;
+        Ok(())
+    }
+}
+
+impl Drop for TemporaryFile {
+    fn drop(&mut self) {
+        if let Some(file) = self.file.take() {
+            let mut files = lock();
+            files.remove(file.path());
+            drop(file);
+        }
+    }
+}
+
+fn lock() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    // The set is valid even if a thread has panicked.
+    TEMPORARY_FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
@@ -199,6 +286,18 @@ mod tests {
             write_whole(&path, |file| file.write_all(b"new")).unwrap();
             assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, mode);
         }
+    }
+
+    #[test]
+    fn ending_of_another_format_is_refused() {
+        let is_png = |name: &str| check_ending(Path::new(name), "a PNG picture", &["png"]).is_ok();
+        assert!(["x", "x.png", "x.PNG", "x.v2", ".png", "x."].into_iter().all(is_png));
+        assert!(!["x.jpg", "x.JPEG", "x.png.svg", "x.ron"].into_iter().any(is_png));
+        let error = check_ending(Path::new("x.jpg"), "a PNG picture", &["png"]).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "cannot write x.jpg: the file will be a PNG picture, not .jpg; give its name the ending .png"
+        );
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! RON files that people write, and errors that say where.
 
+mod decimal_comma;
+
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
@@ -37,8 +39,8 @@ impl FileError {
     }
 
     /// The same error with the file's path.
-    pub fn in_file(self, file: &str) -> Self {
-        Self { file: Some(file.to_owned()), ..self }
+    pub fn in_file(self, file: &Path) -> Self {
+        Self { file: Some(file.to_string_lossy().into_owned()), ..self }
     }
 }
 
@@ -88,6 +90,9 @@ pub enum ReadError {
     /// The line of this number, from 1, is not UTF-8.
     #[error("line {0}: the file is not text (UTF-8)")]
     NotText(usize),
+    /// The text has another encoding.
+    #[error("the file is text in UTF-16; save it as UTF-8")]
+    Utf16,
 }
 
 impl From<ReadError> for FileError {
@@ -124,7 +129,12 @@ pub fn read<'a>(
     if bytes.len() as u64 > MAX_BYTES {
         return Err(ReadError::TooLarge(what));
     }
-    String::from_utf8(bytes).map_err(|error| {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(ReadError::Utf16);
+    }
+    // Some editors put a byte order mark at the beginning of a file.
+    let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
+    String::from_utf8(text.to_vec()).map_err(|error| {
         let line = error.as_bytes()[..error.utf8_error().valid_up_to()].split(|&byte| byte == b'\n').count();
         ReadError::NotText(line)
     })
@@ -136,7 +146,7 @@ pub fn read<'a>(
 /// # Errors
 /// The first mistake, with its line, column and field.
 pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &str) -> Result<T, FileError> {
-    // Some editors put a byte order mark at the beginning of a file.
+    // The text of a scene in a run file may begin with a byte order mark.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     if text.trim().is_empty() {
         return Err(FileError::new(None, &format!("the file is empty; a {what} needs at least {least}")));
@@ -151,6 +161,13 @@ pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &st
         let position = at(spanned.span.end);
         if spanned.code == ron::Error::ExceededRecursionLimit {
             return FileError::new(position, deep);
+        }
+        let is_syntax = !matches!(spanned.code, ron::Error::Message(_));
+        if let Some(number) =
+            position.filter(|_| is_syntax).and_then(|position| decimal_comma::find(text, byte_offset(text, position)))
+        {
+            let point = number.replace(',', ".");
+            return FileError::new(position, &format!("{field}a decimal mark is a point: write {point}, not {number}"));
         }
         FileError::new(position, &format!("{field}{}", spanned.code))
     })?;
@@ -201,6 +218,13 @@ pub fn find_path(text: &str, path: &[String]) -> Option<(usize, usize)> {
     let found = path.iter().try_fold(0, |from, step| find_item(text, from, step).ok_or(from));
     let (Ok(at) | Err(at)) = found;
     (at > 0).then(|| line_and_column(text, at))
+}
+
+/// The byte offset of a line and column, from 1.
+fn byte_offset(text: &str, (line, column): (usize, usize)) -> usize {
+    let line: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let columns = text[line..].char_indices().map(|(at, _)| at).chain([text.len() - line]);
+    line + columns.take(column).last().unwrap_or(0)
 }
 
 /// The line and column, from 1, of a byte offset.

@@ -16,7 +16,7 @@ use crate::time::Time;
 #[command(version, about, args_conflicts_with_subcommands = true)]
 pub(super) struct Args {
     /// A scene file, a built-in scene, a run file, or a lesson file [default: the last one that was open]
-    pub scene: Option<String>,
+    pub scene: Option<PathBuf>,
     /// Write the records of the run to this file when the run ends
     #[arg(long, value_name = "FILE")]
     pub log: Option<PathBuf>,
@@ -27,6 +27,9 @@ pub(super) struct Args {
 #[derive(Debug, Subcommand)]
 pub(super) enum CliCommand {
     /// Trace a scene without a window and save the picture
+    ///
+    /// Ctrl C, or another signal that ends programs, ends the run early: the picture so far and its records are
+    /// written, and the exit code is 128 plus the number of the signal. A second signal ends the program at once.
     Render(RenderArgs),
     /// Explain the colour and the cost of a pixel
     Inspect(InspectArgs),
@@ -40,7 +43,7 @@ pub(super) enum CliCommand {
         /// A scene file or a built-in scene [default: ten-objects; rivals, peer, needs and accuracy take all built-in
         /// scenes; stability takes none]
         #[arg(long)]
-        scene: Option<String>,
+        scene: Option<PathBuf>,
         /// chaos: the number of runs [default: 10000; with --seed 1]
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
         seeds: Option<u64>,
@@ -58,7 +61,7 @@ pub(super) enum CliCommand {
     Lesson {
         /// A lesson file or a built-in lesson [default: list the built-in lessons]
         #[arg(value_name = "LESSON")]
-        lesson: Option<String>,
+        lesson: Option<PathBuf>,
     },
     /// Open the window with a recorded run
     Replay {
@@ -75,7 +78,7 @@ pub(super) enum CliCommand {
 pub(super) struct ExportArgs {
     /// A recorded run; for --pov a scene file or a built-in scene
     #[arg(value_name = "RUN")]
-    pub source: String,
+    pub source: PathBuf,
     /// Write the scene for POV-Ray 3.7
     #[arg(long, value_name = "FILE.pov")]
     pub pov: Option<PathBuf>,
@@ -146,7 +149,7 @@ pub(super) enum StudyKind {
 #[command(allow_negative_numbers = true)]
 pub(super) struct RenderArgs {
     /// A scene file or a built-in scene
-    pub scene: String,
+    pub scene: PathBuf,
     /// Save the picture in this file
     #[arg(long, value_name = "FILE.png")]
     pub out: PathBuf,
@@ -225,7 +228,7 @@ pub(super) struct RenderArgs {
 #[command(allow_negative_numbers = true)]
 pub(super) struct InspectArgs {
     /// A scene file or a built-in scene
-    pub scene: String,
+    pub scene: PathBuf,
     /// The column and the row of the pixel; 0,0 is the upper left corner
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pub pixel: [u32; 2],

@@ -1,5 +1,6 @@
 //! `anel export`: writes a recorded run or a scene in the formats of other programs.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -8,7 +9,7 @@ use std::sync::Arc;
 use indicatif::ProgressBar;
 
 use super::args::ExportArgs;
-use super::{Failure, check_outputs, open, progress, tell};
+use super::{Failure, check_format, check_outputs, load_run, open, progress, tell};
 use crate::cancel::CancelToken;
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Drawing, Film, PovScene, to_pov, write_chrome, write_csv};
@@ -23,8 +24,9 @@ use crate::tracer::Tracer;
 const MAX_TOLD_LIMITS: usize = 8;
 
 pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
-    let source = Path::new(&args.source);
-    check_outputs(&args.source, &outputs(args))?;
+    let source = args.source.as_path();
+    check_outputs(source, &outputs(args))?;
+    check_formats(args)?;
     if !is_run_file(source) {
         return export_scene(args);
     }
@@ -35,7 +37,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
         )));
     }
     let drawings = drawings(args)?;
-    let log = RunLog::load(source).map_err(|error| Failure::Refused(error.to_string()))?;
+    let log = load_run(source)?;
     if let Some(path) = &args.csv {
         write(path, |file| write_csv(file, &log))?;
     }
@@ -43,7 +45,18 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
         write(path, |file| write_chrome(file, &log))?;
     }
     for (path, drawing, is_png) in drawings {
-        write(path, |file| drawing.write(file, &log, is_png))?;
+        let mut missing = BTreeSet::new();
+        write(path, |file| {
+            missing = drawing.write(file, &log, is_png)?;
+            Ok(())
+        })?;
+        if !missing.is_empty() {
+            let (path, letters) = (path.display(), missing.iter().collect::<String>());
+            tell(&format!(
+                "{path}: no font of this computer has {letters}; they are drawn as boxes. Install such a font, or \
+                 export the drawing as .svg"
+            ));
+        }
     }
     if args.png.is_none() && args.gif.is_none() && args.layers.outputs().next().is_none() {
         return Ok(());
@@ -68,7 +81,7 @@ pub(super) fn export(args: &ExportArgs) -> Result<(), Failure> {
 /// Exports a scene, for which there is only `--pov`.
 fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
     let opened = open(&args.source)?;
-    let (others, source) = (outputs(args), &args.source);
+    let (others, source) = (outputs(args), args.source.display());
     match (&args.pov, others.first()) {
         (Some(pov), _) if others.len() == 1 => {
             let default_size = || Size::new(640, 480).map_err(|error| Failure::Refused(error.to_string()));
@@ -91,6 +104,15 @@ fn export_scene(args: &ExportArgs) -> Result<(), Failure> {
             )))
         }
     }
+}
+
+/// Checks the endings of the files; [`drawings`] checks those of drawings.
+fn check_formats(args: &ExportArgs) -> Result<(), Failure> {
+    check_format(args.pov.as_deref(), "a scene for POV-Ray", &["pov"])?;
+    check_format(args.csv.as_deref(), "a table", &["csv"])?;
+    check_format(args.trace.as_deref(), "a trace in JSON", &["json"])?;
+    check_format(args.gif.as_deref(), "an animated GIF", &["gif"])?;
+    check_format(args.png.as_deref(), "a PNG picture", &["png"])
 }
 
 /// The files to write.

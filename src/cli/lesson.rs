@@ -1,12 +1,16 @@
 //! `anel lesson`: prints the steps of a lesson and checks its claims.
 
+use std::path::Path;
+
 use super::{Failure, print, progress};
 use crate::cancel::CancelToken;
 use crate::language::Language;
 use crate::lesson::{BUILT_IN, Lesson};
+use crate::time::Time;
+use crate::view::{TimeScale, time_words};
 
 /// Plays the lesson `argument`; without one, lists the built-in lessons.
-pub(super) fn lesson(argument: Option<&str>) -> Result<(), Failure> {
+pub(super) fn lesson(argument: Option<&Path>) -> Result<(), Failure> {
     let Some(argument) = argument else {
         for (name, _) in BUILT_IN {
             let lesson = Lesson::open(name).map_err(|error| Failure::Failed(error.to_string()))?;
@@ -31,7 +35,9 @@ pub(super) fn play(lesson: &Lesson) -> Result<(), Failure> {
         let run = performed.iter().find(|(name, _)| *name == step.run);
         let at = run.zip(step.until).and_then(|((_, run), until)| Some((run, until.of(&run.log)?.0)));
         let at = at.and_then(|(run, records)| Some(run.log.records().get(records.checked_sub(1)?)?.at));
-        let at = at.map_or_else(String::new, |at| format!(" to {:.2} s", at.secs()));
+        let scale = TimeScale::of_length(run.map_or(Time::ZERO, |(_, run)| run.log.end()));
+        let words = |at| format!(" to {}", time_words(at, scale.finer(1), Language::English));
+        let at = at.map_or_else(String::new, words);
         print(&format!("{number}. [{}{at}] {}", step.run, step.say.in_language(Language::English)))?;
     }
     let claims = lesson.check(&performed);

@@ -22,9 +22,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::driver::{auto_pace, cores};
 use crate::gui::{self, Opening, Settings};
+use crate::interrupt;
 use crate::language::Language;
-use crate::output::{as_file_name, check_writable, is_same_file};
-use crate::runlog::{Header, RunLog};
+use crate::output::{as_file_name, check_ending, check_writable, is_same_file, remove_temporary_files};
+use crate::runlog::{Header, RunLog, is_run_file};
 use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;
 use crate::view::note_on_media;
@@ -40,8 +41,16 @@ enum Failure {
 }
 
 /// Runs the program with the arguments of the process. Exit codes: 0 success, 1 the run failed, 2 an argument, the
-/// scene or an output path is invalid.
+/// scene or an output path is invalid, 128 + n signal n has ended it.
 pub fn main() -> ExitCode {
+    interrupt::handle_signals();
+    let code = execute();
+    // Threads that still write end with the process.
+    remove_temporary_files();
+    code
+}
+
+fn execute() -> ExitCode {
     let done = Args::try_parse().map_err(usage).and_then(|args| match args.command {
         Some(CliCommand::Render(render)) => render::render(&render),
         Some(CliCommand::Inspect(inspect)) => inspect::inspect(&inspect),
@@ -54,7 +63,7 @@ pub fn main() -> ExitCode {
         None => window(args.scene.as_deref(), args.log),
     });
     let (code, sentence) = match done {
-        Ok(()) => return ExitCode::SUCCESS,
+        Ok(()) => return interrupt::exit_code().map_or(ExitCode::SUCCESS, ExitCode::from),
         Err(Failure::Refused(sentence)) => (2, sentence),
         Err(Failure::Failed(sentence)) => (1, sentence),
     };
@@ -69,7 +78,16 @@ fn tell(sentence: &str) {
 
 /// Prints a result on standard output.
 fn print(result: &str) -> Result<(), Failure> {
-    match writeln!(io::stdout(), "{result}") {
+    print_bytes(result.as_bytes())
+}
+
+/// Prints the path of a file on standard output. It need not be UTF-8.
+fn print_path(path: &Path) -> Result<(), Failure> {
+    print_bytes(path.as_os_str().as_encoded_bytes())
+}
+
+fn print_bytes(line: &[u8]) -> Result<(), Failure> {
+    match io::stdout().write_all(&[line, b"\n"].concat()) {
         // The reader has closed the pipe; this is not an error.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
         Err(error) => Err(Failure::Failed(format!("standard output cannot be written: {error}"))),
@@ -84,10 +102,10 @@ fn progress(steps: u64, template: &str) -> ProgressBar {
 }
 
 /// Refuses output files that cannot be written, or that would replace the scene or each other.
-fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
+fn check_outputs(scene: &Path, outputs: &[&Path]) -> Result<(), Failure> {
     for (index, output) in outputs.iter().enumerate() {
         check_writable(output).map_err(|error| Failure::Refused(error.to_string()))?;
-        let taken = [Path::new(scene)].into_iter().chain(outputs[..index].iter().copied());
+        let taken = [scene].into_iter().chain(outputs[..index].iter().copied());
         if let Some(other) = taken.into_iter().find(|other| is_same_file(output, other)) {
             return Err(Failure::Refused(format!(
                 "{} would be replaced by {}; choose another name",
@@ -97,6 +115,26 @@ fn check_outputs(scene: &str, outputs: &[&Path]) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+/// Refuses a name whose ending stands for another format than the one that is written.
+fn check_format(path: Option<&Path>, format: &'static str, endings: &[&'static str]) -> Result<(), Failure> {
+    path.map_or(Ok(()), |path| check_ending(path, format, endings)).map_err(|error| Failure::Refused(error.to_string()))
+}
+
+/// Checks the endings of a picture and of a run file.
+fn check_picture_and_log(picture: Option<&Path>, log: Option<&Path>) -> Result<(), Failure> {
+    check_format(picture, "a PNG picture", &["png"])?;
+    check_format(log, "a run file", &["anel", "json", "jsonl"])
+}
+
+/// Reads a run file. If it is cut off, says so.
+fn load_run(path: &Path) -> Result<RunLog, Failure> {
+    let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    if let Some(line) = log.cut_off_at() {
+        tell(&format!("{} is cut off in line {line}; the records before that line are used", path.display()));
+    }
+    Ok(log)
 }
 
 /// Turns an error of the arguments into one sentence. If help or the version is asked for, prints it and exits.
@@ -116,15 +154,19 @@ fn usage(error: clap::Error) -> Failure {
 
 /// Opens the window with a scene, a recorded run, a lesson, or the last one that was open. If no window can be opened,
 /// does the run without it.
-fn window(argument: Option<&str>, log: Option<PathBuf>) -> Result<(), Failure> {
-    let opening = argument.map(Opening::read).transpose().map_err(Failure::Refused)?;
-    check_outputs(argument.unwrap_or_default(), log.as_deref().as_slice())?;
+fn window(argument: Option<&Path>, log: Option<PathBuf>) -> Result<(), Failure> {
+    let opening = match argument {
+        Some(path) if is_run_file(path) => Some(Opening::Run(Arc::new(load_run(path)?))),
+        Some(path) => Some(Opening::read(path).map_err(Failure::Refused)?),
+        None => None,
+    };
+    check_outputs(argument.unwrap_or(Path::new("")), log.as_deref().as_slice())?;
+    check_picture_and_log(None, log.as_deref())?;
     show(opening, log)
 }
 
 fn replay(path: &Path) -> Result<(), Failure> {
-    let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
-    show(Some(Opening::Run(Arc::new(log))), None)
+    show(Some(Opening::Run(Arc::new(load_run(path)?))), None)
 }
 
 fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
@@ -150,13 +192,13 @@ fn show(opening: Option<Opening>, log: Option<PathBuf>) -> Result<(), Failure> {
     // Without a viewer the run may go at the full pace.
     header.pace = auto_pace(&header.speeds, header.cores);
     let out = free_name(&as_file_name(&header.scene));
-    check_outputs("", &[&out])?;
+    check_outputs(Path::new(""), &[&out])?;
     let tracer = Arc::new(Tracer::new(&scene, header.size, header.quality));
     render::run_and_save(&tracer, &header, None, &render::Outputs::of_run(&out, log.as_deref()))
 }
 
 /// Opens a scene, and says on stderr what its author may not have meant.
-fn open(argument: &str) -> Result<Opened, Failure> {
+fn open(argument: impl AsRef<Path>) -> Result<Opened, Failure> {
     let opened = Opened::new(argument).map_err(|error| Failure::Refused(error.to_string()))?;
     if let Some(note) = note_on_media(&opened.scene, Language::English) {
         eprintln!("note: {note}");

@@ -1,4 +1,4 @@
-//! `anel render`: a run without a window.
+//! `anel render`: a run without a window. A signal ends it early; the picture so far and its records are then written.
 
 use std::io::{self, Write};
 use std::ops::Range;
@@ -12,10 +12,11 @@ use super::args::RenderArgs;
 use super::layers::LayerArgs;
 use super::report::Report;
 use super::run_header;
-use super::{Failure, check_outputs, open, print, progress};
+use super::{Failure, check_outputs, check_picture_and_log, load_run, open, print, print_path, progress, tell};
 use crate::cancel::CancelToken;
-use crate::driver::{Run, RunError, TracedPicture, Update, probe};
-use crate::picture::{Colour, Coverage, Frame, Region, Size, write_png, write_png_with_alpha};
+use crate::driver::{PartialPicture, Run, RunError, TracedPicture, Update, probe};
+use crate::interrupt::EndsEarly;
+use crate::picture::{Colour, Coverage, Frame, Region, Size, atoms_in, write_png, write_png_with_alpha};
 use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::sim::Sim;
 use crate::tracer::{RayCounts, Scratch, Tracer};
@@ -39,11 +40,13 @@ impl<'a> Outputs<'a> {
     }
 }
 
-/// The results of a run.
+/// The results of a run, or of its part before a signal.
 struct RenderResult {
     frame: Frame,
     /// The pixels' coverage, if the picture has no background; its colours are then premultiplied.
     coverage: Option<Arc<Coverage>>,
+    /// The number of atoms in the frame.
+    placed: u32,
     log: RunLog,
     rays: RayCounts,
     wall: Duration,
@@ -56,6 +59,7 @@ pub(super) fn render(args: &RenderArgs) -> Result<(), Failure> {
     outputs.extend(args.log.as_deref());
     outputs.extend(args.layers.outputs());
     check_outputs(&args.scene, &outputs)?;
+    check_picture_and_log(Some(&args.out), args.log.as_deref())?;
     let measured = args.costs.as_deref().map(|path| measured(path, &header)).transpose()?;
     let tracer = Tracer::new(&opened.scene, args.size, header.quality);
     let tracer = Arc::new(match args.region {
@@ -80,24 +84,54 @@ pub(super) fn run_and_save(
     measured: Option<Sim>,
     to: &Outputs<'_>,
 ) -> Result<(), Failure> {
+    let interrupted = CancelToken::default();
+    let ends_early = {
+        let interrupted = interrupted.clone();
+        EndsEarly::new(move || interrupted.cancel())
+    };
     let coverage = to.transparent_on.map(|_| Arc::new(Coverage::new(header.size.pixels())));
-    let outcome = if header.driver == Driver::Sim {
-        simulate(tracer, header, measured, coverage)?
-    } else {
-        run(tracer, header, coverage)?
+    let outcome = match header.driver {
+        Driver::Sim => simulate(tracer, header, measured, coverage, &interrupted)?,
+        Driver::Threads | Driver::Pairs | Driver::WorkStealing => run(tracer, header, coverage, &interrupted)?,
     };
     save(&outcome, to)?;
-    // In virtual time threads do not compete for cores and caches.
-    let overhead = if header.driver == Driver::Sim { Some(1.0) } else { overhead(tracer, &outcome.log) };
+    drop(ends_early);
+    let is_interrupted = interrupted.is_cancelled();
+    if is_interrupted {
+        tell(&interruption(&outcome, header, to));
+    }
+    let overhead = match header.driver {
+        _ if is_interrupted => None,
+        // In virtual time threads do not compete for cores and caches.
+        Driver::Sim => Some(1.0),
+        Driver::Threads | Driver::Pairs | Driver::WorkStealing => overhead(tracer, &outcome.log),
+    };
     let mut report = Report::new(&outcome.log, outcome.rays, outcome.wall, overhead, tracer);
+    report.interrupted = is_interrupted;
     report.set_region(to.region);
     if to.json {
-        report.levels = tracer.levels();
+        if !is_interrupted {
+            report.levels = tracer.levels();
+        }
         return print(&report.json());
     }
-    // The picture is saved; if standard error is closed, the report is not needed.
-    let _ = write!(io::stderr(), "{report}");
-    print(&to.out.display().to_string())
+    if !is_interrupted {
+        // The picture is saved; if standard error is closed, the report is not needed.
+        let _ = write!(io::stderr(), "{report}");
+    }
+    print_path(to.out)
+}
+
+/// Says what an interrupted run has written.
+fn interruption(outcome: &RenderResult, header: &Header, to: &Outputs<'_>) -> String {
+    let (out, placed, atoms) = (to.out.display(), outcome.placed, header.division.atoms());
+    let picture = if placed == atoms {
+        format!("{out} is complete")
+    } else {
+        format!("{out} has {placed} of {atoms} atoms; the rest is black")
+    };
+    let records = to.log.map(|log| format!(", and {} the records so far", log.display())).unwrap_or_default();
+    format!("the run was interrupted: {picture}{records}")
 }
 
 /// Saves the picture, its layers and the records.
@@ -131,26 +165,40 @@ fn tracing(
 }
 
 #[expect(clippy::disallowed_methods, reason = "measures the wall time of the whole run")]
-fn run(tracer: &Arc<Tracer>, header: &Header, coverage: Option<Arc<Coverage>>) -> Result<RenderResult, Failure> {
+fn run(
+    tracer: &Arc<Tracer>,
+    header: &Header,
+    coverage: Option<Arc<Coverage>>,
+    interrupted: &CancelToken,
+) -> Result<RenderResult, Failure> {
+    /// How long a signal may stay unnoticed.
+    const INTERRUPT_INTERVAL: Duration = Duration::from_millis(50);
     let begun = Instant::now();
     let run = Run::start_with(tracing(tracer, &coverage), header);
     let bar = atoms_bar(header);
     let mut frame = Frame::new(header.size);
     // The log gets all records at once; otherwise it would sort its end for the batch of each party.
     let mut all_records = Vec::new();
-    let mut rays = RayCounts::default();
+    let (mut rays, mut placed) = (RayCounts::default(), 0);
     let failure = loop {
-        match run.updates().recv() {
+        if interrupted.is_cancelled() {
+            // The last update follows once all threads have ended.
+            run.stop();
+        }
+        match run.updates().recv_timeout(INTERRUPT_INTERVAL) {
             Ok(Update::Records(records)) => all_records.extend(records),
             Ok(Update::Placed { atoms, pixels }) => {
                 for (place, colours) in header.division.placed(&atoms, &pixels) {
                     frame.place(place, colours);
                 }
-                bar.inc(atoms.iter().map(|range| range.len() as u64).sum());
+                placed += atoms_in(&atoms);
+                bar.set_position(placed.into());
             }
             Ok(Update::Rays(more)) => rays += more,
             Ok(Update::Finished) => break None,
+            Ok(Update::Failed(RunError::Stopped)) if interrupted.is_cancelled() => break None,
             Ok(Update::Failed(error)) => break Some(error),
+            Err(error) if error.is_timeout() => {}
             Err(_) => break Some(RunError::NoResult),
         }
     };
@@ -161,7 +209,7 @@ fn run(tracer: &Arc<Tracer>, header: &Header, coverage: Option<Arc<Coverage>>) -
         None => {
             let mut log = RunLog::new(header.clone());
             log.add(all_records);
-            Ok(RenderResult { frame, coverage, log, rays, wall })
+            Ok(RenderResult { frame, coverage, placed, log, rays, wall })
         }
     }
 }
@@ -173,30 +221,37 @@ fn simulate(
     header: &Header,
     measured: Option<Sim>,
     coverage: Option<Arc<Coverage>>,
+    interrupted: &CancelToken,
 ) -> Result<RenderResult, Failure> {
     let begun = Instant::now();
     let bar = atoms_bar(header);
     let (trace, done) = (tracing(tracer, &coverage), |atoms: u32| bar.inc(atoms.into()));
-    let whole = TracedPicture::trace(header.division, &trace, &done, &CancelToken::default())
-        .map_err(|error| Failure::Failed(error.to_string()))?
-        // It is `None` only if cancelled, which nothing does here.
-        .unwrap_or_default();
+    let traced = TracedPicture::or_part(header.size, header.division, &trace, &done, interrupted)
+        .map_err(|error| Failure::Failed(error.to_string()))?;
     bar.finish_and_clear();
+    let mut log = RunLog::new(header.clone());
+    let whole = match traced {
+        Ok(whole) => whole,
+        // The run in virtual time has not begun, so it has no records.
+        Err(PartialPicture { frame, atoms, counts }) => {
+            return Ok(RenderResult { frame, coverage, placed: atoms, log, rays: counts, wall: begun.elapsed() });
+        }
+    };
     let frame = Frame::of(header.size, &whole.pixels);
     let mut sim = measured.unwrap_or_else(|| {
         let costs = whole.costs();
         Sim::new(header, &[], move |atom| costs[atom as usize])
     });
     let mut records = Vec::new();
-    sim.run(&mut |record| records.push(record));
-    let mut log = RunLog::new(header.clone());
+    sim.run_unless_cancelled(interrupted, &mut |record| records.push(record));
     log.add(records);
-    Ok(RenderResult { frame, coverage, log, rays: whole.counts, wall: begun.elapsed() })
+    let placed = header.division.atoms();
+    Ok(RenderResult { frame, coverage, placed, log, rays: whole.counts, wall: begun.elapsed() })
 }
 
 /// Prepares a run in virtual time with the costs of a recorded run of the same picture.
 fn measured(path: &Path, header: &Header) -> Result<Sim, Failure> {
-    let log = RunLog::load(path).map_err(|error| Failure::Refused(error.to_string()))?;
+    let log = load_run(path)?;
     Sim::measured(header, &log)
         .map_err(|why| Failure::Refused(format!("the costs in {} cannot be used: {why}", path.display())))
 }

@@ -5,9 +5,12 @@ use std::time::Duration;
 
 use serde::Serialize;
 
+use crate::language::Language;
 use crate::picture::{Quality, Region, Size};
 use crate::runlog::{MessageCounts, Metrics, RunLog};
+use crate::time::Time;
 use crate::tracer::{RayCounts, SceneStats, Tracer};
+use crate::view::{TimeScale, time_words};
 
 /// The figures of a run; times are in seconds.
 #[derive(Debug, Serialize)]
@@ -42,6 +45,8 @@ pub(super) struct Report {
     atoms_by_node: Vec<u32>,
     messages: MessageCounts,
     compiled: SceneStats,
+    /// Whether a signal has ended the run early.
+    pub interrupted: bool,
     /// Primary, reflected and refracted rays on each level of the tree of rays, for a sample of the pixels.
     pub levels: Vec<u64>,
 }
@@ -73,6 +78,7 @@ impl Report {
             atoms_by_node: metrics.atoms_by_node(),
             messages: metrics.messages(),
             compiled: tracer.scene_stats(),
+            interrupted: false,
             levels: Vec::new(),
         }
     }
@@ -97,13 +103,18 @@ impl fmt::Display for Report {
         let plural = |count: u64, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
         let region = self.region.map_or(String::new(), |[x, y, w, h]| format!(", region {x},{y},{w},{h}"));
         writeln!(f, "{scene}, {width}x{height}{region}, {strategy}, {}", plural(*nodes as u64, "node"))?;
+        // Short runs have smaller units.
+        let scale = TimeScale::of_length(Time::from_secs(self.makespan_s)).with_decimals(3);
+        let times = [self.makespan_s, self.ideal_s, self.finish_spread_s, self.work_s];
+        let words = |seconds| time_words(Time::from_secs(seconds), scale, Language::English);
+        let [makespan, ideal, spread, work] = times.map(words);
         writeln!(
             f,
-            "  makespan {:.3} s, ideal {:.3} s: efficiency {:.3}; the nodes ended within {:.3} s",
-            self.makespan_s, self.ideal_s, self.efficiency, self.finish_spread_s
+            "  makespan {makespan}, ideal {ideal}: efficiency {:.3}; the nodes ended within {spread}",
+            self.efficiency
         )?;
         if let Some(overhead) = self.overhead {
-            writeln!(f, "  tracing took {:.3} s of CPU time, {overhead:.3} times that of one thread", self.work_s)?;
+            writeln!(f, "  tracing took {work} of CPU time, {overhead:.3} times that of one thread")?;
         }
         let MessageCounts { requests, parts, offers, hops, transfers, atoms_moved, .. } = self.messages;
         if requests > 0 {

@@ -17,7 +17,7 @@ use crate::study::{Study, accuracy, chaos, needs, paper, peer, remedies, rivals,
 /// `seeds` are the first seed and the number of seeds, for `chaos` only.
 pub(super) fn study(
     kind: StudyKind,
-    scene: Option<&str>,
+    scene: Option<&Path>,
     seeds: (Option<u64>, Option<u64>),
     out: &Path,
     as_json: bool,
@@ -27,16 +27,16 @@ pub(super) fn study(
     }
     let first = seeds.0.unwrap_or(0);
     let count = seeds.1.unwrap_or(if seeds.0.is_some() { 1 } else { 10_000 });
-    let scenes: Vec<&str> = match (scene, kind) {
+    let scenes: Vec<&Path> = match (scene, kind) {
         (Some(_), StudyKind::Stability) => {
             return Err(Failure::Refused("stability has its own cases; leave out --scene".into()));
         }
         (None, StudyKind::Stability) => Vec::new(),
         (Some(scene), _) => vec![scene],
         (None, StudyKind::Rivals | StudyKind::Peer | StudyKind::Needs | StudyKind::Accuracy) => {
-            BUILT_IN.iter().map(|(name, _)| *name).collect()
+            BUILT_IN.iter().map(|(name, _)| Path::new(*name)).collect()
         }
-        (None, _) => vec!["ten-objects"],
+        (None, _) => vec![Path::new("ten-objects")],
     };
     let scenes: Vec<Opened> = scenes.into_iter().map(open).collect::<Result<_, _>>()?;
     std::fs::create_dir_all(out)

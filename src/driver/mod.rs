@@ -47,7 +47,7 @@ mod worker;
 pub use error::{RunError, ThreadError, UntraceableAtom};
 pub use pace::{auto_pace, cores};
 pub use probe::{Probe, probe};
-pub use render_all::{RAY_COST, TracedPicture};
+pub use render_all::{PartialPicture, RAY_COST, TracedPicture};
 pub use render_tiled::trace_strips;
 pub use render_timed::TimedPicture;
 pub use retrace::Retrace;

@@ -1,5 +1,6 @@
 //! Compared runs as files: a CSV row per run, and a bar chart of their time budgets.
 
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use serde::Serialize;
@@ -68,11 +69,12 @@ impl Comparison {
         table.flush()
     }
 
-    /// Writes the time budgets of the runs that end as a bar chart: as PNG if `is_png`, else as SVG.
+    /// Writes the time budgets of the runs that end as a bar chart: as PNG if `is_png`, else as SVG. Returns the
+    /// letters that no font of this computer has, and that are drawn as boxes.
     ///
     /// # Errors
     /// The error of writing to `to`; an [`ExportError`](super::ExportError), if the chart cannot become pixels.
-    pub fn write_bars(&self, to: impl Write, is_png: bool) -> io::Result<()> {
+    pub fn write_bars(&self, to: impl Write, is_png: bool) -> io::Result<BTreeSet<char>> {
         let names: Vec<String> = self.runs.iter().map(ComparisonEntry::name).collect();
         let accounts = self.runs.iter().map(|run| run.account.as_ref());
         let runs: Vec<(&str, &TimeBudget)> =

@@ -1,5 +1,6 @@
 //! The ring or the timeline of a run as a file, SVG or PNG.
 
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use super::{Raster, to_hatched_svg};
@@ -29,22 +30,27 @@ impl Drawing {
         to_hatched_svg(&marks, size, nodes)
     }
 
-    /// Writes the drawing: as PNG if `is_png`, else as SVG.
+    /// Writes the drawing: as PNG if `is_png`, else as SVG. Returns the letters that no font of this computer has, and
+    /// that are drawn as boxes.
     ///
     /// # Errors
     /// The error of writing to `to`; an [`ExportError`](super::ExportError), if the drawing cannot become pixels.
-    pub fn write(self, to: impl Write, log: &RunLog, is_png: bool) -> io::Result<()> {
+    pub fn write(self, to: impl Write, log: &RunLog, is_png: bool) -> io::Result<BTreeSet<char>> {
         write_drawing(to, &self.svg(log), is_png)
     }
 }
 
-/// Writes an SVG text, as pixels in PNG if `is_png`.
-pub(super) fn write_drawing(mut to: impl Write, svg: &str, is_png: bool) -> io::Result<()> {
+/// Writes an SVG text, as pixels in PNG if `is_png`. Returns the letters that cannot be drawn.
+pub(super) fn write_drawing(mut to: impl Write, svg: &str, is_png: bool) -> io::Result<BTreeSet<char>> {
     /// Pixels in a unit of the SVG.
     const SCALE: f32 = 2.0;
     if !is_png {
-        return to.write_all(svg.as_bytes());
+        to.write_all(svg.as_bytes())?;
+        // The program that shows it has fonts of its own.
+        return Ok(BTreeSet::new());
     }
-    let (size, rgb) = Raster::new().draw(svg, SCALE).map_err(io::Error::other)?;
-    encode_png(to, size, &rgb)
+    let raster = Raster::new(svg);
+    let (size, rgb) = raster.draw(svg, SCALE).map_err(io::Error::other)?;
+    encode_png(to, size, &rgb)?;
+    Ok(raster.missing().clone())
 }

@@ -14,7 +14,7 @@ use crate::picture::{Frame, Size};
 use crate::runlog::RunLog;
 use crate::time::Time;
 use crate::view::{
-    Anchor, Canvas, Hue, Layer, Mark, RingLayout, RingOverlay, Snapshot, Summary, TextSize, ring, time_words,
+    Anchor, Canvas, Hue, Layer, Mark, RingLayout, RingOverlay, Snapshot, Summary, TextSize, TimeScale, ring, time_words,
 };
 
 /// Settings of a run's animation.
@@ -136,7 +136,7 @@ impl<'a> FilmFrames<'a> {
             look: film.look,
             snapshot: Snapshot::new(header),
             canvas,
-            raster: Raster::new(),
+            raster: Raster::new(""),
             layout,
             outcome: Summary::of(log),
             end,
@@ -192,7 +192,7 @@ impl<'a> FilmFrames<'a> {
 
     /// Draws time and sentence, if they differ from the last caption.
     fn draw_caption(&mut self, at: Time, is_last: bool) -> Result<(), ExportError> {
-        let time = time_words(at, (self.end.secs() / 2.0).clamp(1e-9, 1.0), Language::English);
+        let time = time_words(at, TimeScale::of_length(self.end), Language::English);
         let sentence = match self.outcome.filter(|_| is_last) {
             Some(_) => format!("Complete after {time}"),
             None => self.snapshot.narrator.sentence(&self.snapshot.state, at, Language::English),

@@ -67,7 +67,9 @@ pub fn open(launch: Launch) -> Result<(), String> {
         let create: eframe::AppCreator<'_> = Box::new(move |creation| {
             created.store(true, Ordering::Relaxed);
             restore_once_created();
-            Ok(Box::new(App::new(&creation.egui_ctx, creation.storage, launch)))
+            let mut app = App::new(&creation.egui_ctx, creation.storage, launch);
+            app.close_on_signal(&creation.egui_ctx);
+            Ok(Box::new(app))
         });
         eframe::run_native("anel", options, create)
     }));

@@ -1,8 +1,10 @@
 //! Texts of checked claims, which the window shows below the answer of a step.
 
+use std::time::Duration;
+
 use super::{Claim, ClaimFigure, Step};
 use crate::language::{Language, decimal, say, word};
-use crate::view::{count, fraction, seconds_words};
+use crate::view::{count, duration, fraction};
 
 impl Step {
     /// The text of the step's claims with their values; `None` if there is no claim to show.
@@ -58,7 +60,7 @@ impl ClaimFigure {
     /// The value with its unit.
     fn shown(self, value: f64, language: Language) -> String {
         match self {
-            Self::Seconds => seconds_words(value, language),
+            Self::Seconds => duration(Duration::try_from_secs_f64(value).unwrap_or_default(), language),
             Self::Efficiency | Self::Waiting | Self::Asking | Self::Starting | Self::Alone => fraction(value),
             Self::Dearest => decimal(language, value, 1),
             // The other figures are counts.

@@ -1,13 +1,16 @@
 //! Errors of lessons: of their runs, and of their files.
 
 use std::fmt;
+use std::time::Duration;
 
 use thiserror::Error;
 
 use super::{MAX_ATOMS, MAX_MACHINES, MAX_SIDE_PX, Moment};
 use crate::driver::ThreadError;
+use crate::language::Language;
 use crate::picture::SizeError;
 use crate::ron_file::FileError;
+use crate::view::duration;
 
 /// Why a lesson cannot be shown, although its file is valid.
 #[derive(Debug, Error)]
@@ -40,7 +43,7 @@ pub enum LessonError {
 
 /// A moment that a run does not have.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("the run `{run}` has no {moment:?}; it lasts {seconds:.1} s")]
+#[error("the run `{run}` has no {moment:?}; it lasts {}", lasted(*seconds))]
 pub struct MissingMoment {
     /// The name of the run.
     pub run: String,
@@ -48,6 +51,10 @@ pub struct MissingMoment {
     pub moment: Moment,
     /// How long the run lasts, in seconds.
     pub seconds: f64,
+}
+
+fn lasted(seconds: f64) -> String {
+    duration(Duration::try_from_secs_f64(seconds).unwrap_or_default(), Language::English)
 }
 
 /// An error in a lesson's file, and its place there.

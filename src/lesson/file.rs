@@ -23,18 +23,18 @@ impl Lesson {
     ///
     /// # Errors
     /// A [`FileError`] that names the file.
-    pub fn open(argument: &str) -> Result<Self, FileError> {
-        let path = Path::new(argument);
-        let built_in = BUILT_IN.iter().find(|(name, _)| *name == argument).filter(|_| !path.exists());
+    pub fn open(argument: impl AsRef<Path>) -> Result<Self, FileError> {
+        let path = argument.as_ref();
+        let built_in = BUILT_IN.iter().find(|(name, _)| path.as_os_str() == *name).filter(|_| !path.exists());
         if let Some((name, text)) = built_in {
             return Self::parse(name, text);
         }
-        let name = path.file_stem().map_or_else(|| argument.into(), |stem| stem.to_string_lossy().into_owned());
+        let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
         let text = ron_file::read(path, "lesson", BUILT_IN.iter().map(|(name, _)| *name));
         let directory = path.parent().map(Path::to_path_buf).unwrap_or_default();
         text.map_err(FileError::from)
             .and_then(|text| Self::parse_in(directory, &name, &text))
-            .map_err(|error| error.in_file(argument))
+            .map_err(|error| error.in_file(path))
     }
 
     /// Reads the text of a lesson file without a directory; its runs can use only built-in scenes.

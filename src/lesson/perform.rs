@@ -110,10 +110,9 @@ fn trace(
     done: &(dyn Fn(u32) + Sync),
     cancel: &CancelToken,
 ) -> Result<Option<TracedPixels>, LessonError> {
-    let beside = directory.join(&plan.scene);
-    let argument =
-        if built_in(&plan.scene).is_some() { plan.scene.clone() } else { beside.to_string_lossy().into_owned() };
-    let opened = Opened::new(&argument).map_err(|source| LessonError::Scene { run: name.to_owned(), source })?;
+    let is_built_in = built_in(&plan.scene).is_some();
+    let path = if is_built_in { plan.scene.clone().into() } else { directory.join(&plan.scene) };
+    let opened = Opened::new(path).map_err(|source| LessonError::Scene { run: name.to_owned(), source })?;
     let opened = Arc::new(opened);
     let tracer = Arc::new(Tracer::new(&opened.scene, plan.size, Quality::default()));
     let traced = TracedPicture::by_pixel(&tracer, done, cancel)

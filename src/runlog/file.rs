@@ -13,7 +13,7 @@ use crate::output::{OutputError, write_whole};
 use crate::record::Record;
 use crate::sentence::shown;
 
-/// First bytes of every run file.
+/// First bytes of every run file, after a byte order mark, if there is one.
 const START: [u8; 12] = *br#"{"anel_run":"#;
 
 /// The first line.
@@ -28,7 +28,12 @@ struct FirstLine<H> {
 /// from directories and pipes.
 pub fn is_run_file(path: &Path) -> bool {
     let mut start = [0; START.len()];
-    open(path).and_then(|mut file| file.read_exact(&mut start)).is_ok() && start == START
+    let read = open(path).and_then(|file| {
+        let mut reader = BufReader::new(file);
+        skip_byte_order_mark(&mut reader)?;
+        reader.read_exact(&mut start)
+    });
+    read.is_ok() && start == START
 }
 
 impl RunLog {
@@ -49,7 +54,8 @@ impl RunLog {
         self.records().iter().try_for_each(|record| write_line(to, record))
     }
 
-    /// Reads a log from a file that [`RunLog::save`] has written.
+    /// Reads a log from a file that [`RunLog::save`] has written. If the last line is cut off, the log ends before it,
+    /// and [`RunLog::cut_off_at`] gives the line.
     ///
     /// # Errors
     /// [`LogError::Read`] if the file is not a regular file, or cannot be read; [`LogError::Line`] with the first line
@@ -58,35 +64,49 @@ impl RunLog {
         let read = |source| LogError::Read { path: path.to_owned(), source };
         let wrong = |line, why| LogError::Line { path: path.to_owned(), line, why };
         let mut reader = BufReader::new(open(path).map_err(read)?);
+        skip_byte_order_mark(&mut reader).map_err(read)?;
         // The first line of another file may be very long: do not read it to its end.
         if !reader.fill_buf().map_err(read)?.starts_with(&START) {
             return Err(wrong(1, LineError::NotARun));
         }
-        let mut lines = reader.lines();
-        let first = match lines.next() {
-            // A file that is not text is not a run file.
-            Some(Err(error)) if error.kind() != io::ErrorKind::InvalidData => return Err(read(error)),
-            Some(Ok(first)) => first,
-            _ => String::new(),
-        };
-        let header = parse_first(&first).map_err(|why| wrong(1, why))?;
+        let mut bytes = Vec::new();
+        reader.read_until(b'\n', &mut bytes).map_err(read)?;
+        // A file that is not text is not a run file.
+        let header = parse_first(str::from_utf8(&bytes).unwrap_or_default()).map_err(|why| wrong(1, why))?;
         let mut records: Vec<Record> = Vec::new();
         let mut checker = validate::Checker::new(&header);
-        for (line, text) in (2..).zip(lines) {
-            let record: Record = match text {
-                Ok(text) => serde_json::from_str(&text).map_err(|error| wrong(line, json_error(&error)))?,
-                Err(error) if error.kind() == io::ErrorKind::InvalidData => {
-                    return Err(wrong(line, LineError::NotText(error)));
+        let mut cut_off_at = None;
+        for line in 2.. {
+            bytes.clear();
+            if reader.read_until(b'\n', &mut bytes).map_err(read)? == 0 {
+                break;
+            }
+            let record: Record = match parse_record(&bytes) {
+                Ok(record) => record,
+                // Every line that was written as a whole ends with a line break.
+                Err(_) if !bytes.ends_with(b"\n") => {
+                    cut_off_at = Some(line);
+                    break;
                 }
-                Err(error) => return Err(read(error)),
+                Err(why) => return Err(wrong(line, why)),
             };
             checker.record(&record).map_err(|why| wrong(line, why.into()))?;
             records.push(record);
         }
         let mut log = Self::new(header);
+        log.cut_off_at = cut_off_at;
         log.add(records);
         Ok(log)
     }
+}
+
+/// Skips the mark that some editors put at the beginning of a text.
+fn skip_byte_order_mark(reader: &mut impl BufRead) -> io::Result<()> {
+    const MARK: &[u8] = "\u{feff}".as_bytes();
+    if reader.fill_buf()?.starts_with(MARK) {
+        reader.consume(MARK.len());
+    }
+    Ok(())
 }
 
 /// Opens a regular file. Checks that before, since opening a pipe blocks until another process writes to it.
@@ -112,6 +132,12 @@ fn parse_first(text: &str) -> Result<Header, LineError> {
     let first: FirstLine<Header> = serde_json::from_str(text).map_err(|error| json_error(&error))?;
     validate::header(&first.header)?;
     Ok(first.header)
+}
+
+fn parse_record(line: &[u8]) -> Result<Record, LineError> {
+    // A line break inside of a text that is cut off would be another error than the end.
+    let text = str::from_utf8(line.trim_ascii_end()).map_err(|_| LineError::NotText)?;
+    serde_json::from_str(text).map_err(|error| json_error(&error))
 }
 
 /// Returns the error without its line, which is always 1, since each line is parsed by itself.
@@ -293,7 +319,47 @@ mod tests {
             with(2, &lines[1].replace(r#""atom":0"#, r#""atom":20"#)),
             "line 2: there is no atom of this number"
         );
-        assert!(with(3, &lines[2][..30]).starts_with("line 3: EOF while parsing"));
+        assert!(with(2, &lines[1][..30]).starts_with("line 2: EOF while parsing"));
+    }
+
+    /// A program that is killed while it writes, or a full disk, cuts a file off at any byte.
+    #[test]
+    fn file_that_is_cut_off_opens_up_to_there() {
+        let mut log = RunLog::new(header(&[1.0]));
+        log.add(vec![done(1, 0, 0, 1), done(2, 0, 1, 1)]);
+        let file = NamedTempFile::new().unwrap();
+        log.save(file.path()).unwrap();
+        let bytes = fs::read(file.path()).unwrap();
+        let ends: Vec<usize> = (0..bytes.len()).filter(|&at| bytes[at] == b'\n').collect();
+        for end in ends[0]..=bytes.len() {
+            for tail in [&b""[..], b"\0\0", b"\xc3"] {
+                fs::write(file.path(), [&bytes[..end], tail].concat()).unwrap();
+                let (loaded, whole) = (RunLog::load(file.path()), ends.iter().filter(|&&at| at < end).count());
+                if end == ends[0] && !tail.is_empty() {
+                    assert!(loaded.is_err(), "the header is cut off");
+                    continue;
+                }
+                let loaded = loaded.unwrap();
+                // A record without its line break is whole if nothing else is missing.
+                let without_break = ends.contains(&end) && tail.is_empty();
+                let is_whole = tail.is_empty() && (without_break || bytes[end - 1] == b'\n');
+                assert_eq!(loaded.cut_off_at(), (!is_whole).then_some(whole + 1), "{end} {tail:?}");
+                let records = whole + usize::from(without_break) - 1;
+                assert_eq!(loaded.records(), &log.records()[..records], "{end} {tail:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn byte_order_mark_is_skipped() {
+        let mut log = RunLog::new(header(&[1.0]));
+        log.add(vec![done(1, 0, 0, 1)]);
+        let file = NamedTempFile::new().unwrap();
+        log.save(file.path()).unwrap();
+        let text = fs::read_to_string(file.path()).unwrap();
+        fs::write(file.path(), format!("\u{feff}{text}")).unwrap();
+        assert!(is_run_file(file.path()));
+        assert_eq!(RunLog::load(file.path()).unwrap(), log);
     }
 
     #[test]

@@ -53,8 +53,8 @@ pub enum LineError {
     )]
     Newer(u32),
     /// The line is no text.
-    #[error(transparent)]
-    NotText(io::Error),
+    #[error("the line is not text (UTF-8)")]
+    NotText,
     /// The line is no JSON, or not the JSON that is expected.
     #[error("{what}, at column {column}")]
     Json {

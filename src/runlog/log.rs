@@ -12,18 +12,25 @@ pub struct RunLog {
     /// Settings of the run.
     pub header: Header,
     records: Vec<Record>,
+    /// The line at which its file is cut off, from 1.
+    pub(super) cut_off_at: Option<usize>,
 }
 
 impl RunLog {
     /// Creates a log without records.
     pub fn new(header: Header) -> Self {
-        Self { header, records: Vec::new() }
+        Self { header, records: Vec::new(), cut_off_at: None }
     }
 
     /// Returns all records in the order of time. Records of one party at the same time stay in the order in which the
     /// party made them.
     pub fn records(&self) -> &[Record] {
         &self.records
+    }
+
+    /// Returns the line, from 1, in the middle of which the log's file is cut off; `None` if its file is whole.
+    pub fn cut_off_at(&self) -> Option<usize> {
+        self.cut_off_at
     }
 
     /// Returns the time of the last record; 0 if there is none.

@@ -21,15 +21,16 @@ pub struct Opened {
 }
 
 impl Opened {
-    /// Reads the scene file at the path `argument`, or the built-in scene of that name if there is no such file.
+    /// Reads the scene file at the path `argument`, which need not be UTF-8, or the built-in scene of that name if
+    /// there is no such file.
     ///
     /// # Errors
     /// A [`FileError`] that names the file.
-    pub fn new(argument: &str) -> Result<Self, FileError> {
-        let path = Path::new(argument);
-        let name = path.file_stem().map_or_else(|| argument.into(), |stem| stem.to_string_lossy().into_owned());
+    pub fn new(argument: impl AsRef<Path>) -> Result<Self, FileError> {
+        let path = argument.as_ref();
+        let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
         if !path.exists()
-            && let Some(text) = built_in(argument)
+            && let Some(text) = path.to_str().and_then(built_in)
         {
             return Self::from_text(&name, text);
         }
@@ -37,7 +38,7 @@ impl Opened {
         text.map_err(FileError::from)
             .and_then(|text| Self::from_text(&name, &text))
             .map(|opened| Self { path: Some(path.into()), ..opened })
-            .map_err(|error| error.in_file(argument))
+            .map_err(|error| error.in_file(path))
     }
 
     /// Parses a scene file's text, without a path.

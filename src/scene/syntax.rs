@@ -83,7 +83,7 @@ pub(super) enum SolidFields {
         from: DVec3,
         #[serde(deserialize_with = "validate::vector")]
         to: DVec3,
-        #[serde(deserialize_with = "validate::positive")]
+        #[serde(deserialize_with = "validate::base_radius")]
         radius: f64,
         /// The radius at `to`: 0 for a whole cone, more for a truncated one.
         #[serde(default, deserialize_with = "validate::number")]

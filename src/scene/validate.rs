@@ -16,6 +16,17 @@ pub(super) fn positive<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Err
     check(f64::deserialize(from)?, |x| (1e-12..=MAX_COORDINATE).contains(&x), "greater than 0 (from 1e-12 to 1e12)")
 }
 
+/// Reads the radius of a cone at `from`. Who writes 0 here has given the tip first.
+pub(super) fn base_radius<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    let radius = f64::deserialize(from)?;
+    if radius == 0.0 {
+        return Err(D::Error::custom(
+            "is the radius at `from` and must be greater than 0; the tip of a cone is at `to`: swap `from` and `to`",
+        ));
+    }
+    check(radius, |x| (1e-12..=MAX_COORDINATE).contains(&x), "greater than 0 (from 1e-12 to 1e12)")
+}
+
 pub(super) fn fraction<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     check(f64::deserialize(from)?, |x| (0.0..=1.0).contains(&x), "between 0 and 1")
 }

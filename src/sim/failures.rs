@@ -7,8 +7,8 @@ use std::time::Duration;
 use super::event_queue::SimEvent;
 use super::simulation::{RecordSink, Sim};
 use crate::balance::{Condition, Event, NodeId, Party, Strategy, Transition};
+use crate::cancel::CancelToken;
 use crate::record::{Record, RecordKind};
-use crate::time::Time;
 
 /// Beats without work after which a run counts as stuck, unless an event in the queue may change that.
 const STANDSTILL_BEATS: u32 = 400;
@@ -17,12 +17,15 @@ impl Sim {
     /// Processes all events. Ends without finishing the picture if the last node with atoms stands still, even if other
     /// nodes keep sending messages.
     pub fn run(&mut self, sink: &mut dyn FnMut(Record)) {
-        // In all other strategies no events are left then.
-        if self.rules.strategy != Strategy::Adaptive {
-            return self.advance(Time(u64::MAX), sink);
-        }
+        self.run_unless_cancelled(&CancelToken::default(), sink);
+    }
+
+    /// Does the same as [`Sim::run`], but ends early once cancelled.
+    pub fn run_unless_cancelled(&mut self, cancel: &CancelToken, sink: &mut dyn FnMut(Record)) {
+        // In all other strategies no events are left at a standstill.
+        let can_stand_still = self.rules.strategy == Strategy::Adaptive;
         let mut last_work = self.now;
-        while let Some(next) = self.next() {
+        while let Some(next) = self.next().filter(|_| !cancel.is_cancelled()) {
             let mut works = false;
             self.advance(next, &mut |record| {
                 works |= matches!(record.kind, RecordKind::AtomStarted { .. } | RecordKind::AtomDone { .. });
@@ -30,7 +33,7 @@ impl Sim {
             });
             if works {
                 last_work = self.now;
-            } else if self.now.since(last_work) > self.rules.beat * STANDSTILL_BEATS {
+            } else if can_stand_still && self.now.since(last_work) > self.rules.beat * STANDSTILL_BEATS {
                 let may_change = |event: &SimEvent| match event {
                     SimEvent::Command(_) => true,
                     SimEvent::AtomDone { node, version } => self.nodes[usize::from(*node)].due_version == *version,
@@ -112,6 +115,7 @@ mod tests {
     use super::*;
     use crate::runlog::{Driver, Header, examples};
     use crate::scenario::Command;
+    use crate::time::Time;
 
     #[test]
     fn delayed_messages_arrive_late_and_in_order_and_those_on_a_cut_link_never() {

@@ -78,7 +78,7 @@ pub use state::node_rows::{NodeRow, NodeShare, node_rows, node_shares};
 pub use state::node_state::{Activity, NodeState, Parcels, Slot};
 pub use state::run_state::{Arrived, RunState};
 pub use text::format::{
-    activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_number, rate_words, seconds_words,
+    TimeScale, activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_number, rate_words,
     time_words, two_digits,
 };
 pub use text::media::note_on_media;

@@ -9,10 +9,12 @@ use super::charts::time_budget_chart::{time_budget_height, time_budget_marks};
 use super::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use super::playback::snapshots::Snapshot;
 use super::ring::layout::RingLayout;
+use super::ring::legend::ring_legend;
 use super::ring::{RingOverlay, ring};
 use super::state::lanes::Lanes;
-use super::text::format::{duration, fraction, node_name, time_words};
+use super::text::format::{TimeScale, duration, fraction, node_name, time_words};
 use super::timeline::layout::TimelineLayout;
+use super::timeline::legend::timeline_legend;
 use super::timeline::time_window::TimeWindow;
 use super::timeline::{axis, timeline};
 use crate::language::Language;
@@ -35,7 +37,10 @@ const MARGIN: f32 = 28.0;
 /// Letters of a title or a memo that are shown; the run's file may have more than a line.
 const MAX_TITLE_LETTERS: usize = 150;
 
-/// Size of the ring's sheet.
+/// Lines of a memo that are shown.
+const MAX_MEMO_LINES: usize = 12;
+
+/// Size of the ring's sheet, without its legend.
 const RING_SIZE: Point = [900.0, 760.0];
 
 /// Width of the timeline's sheet.
@@ -64,11 +69,16 @@ impl PrintedDrawing {
         let layout = RingLayout::new(state.nodes().len(), room, language);
         let drawn = ring(&layout, state, &overlay, drawn_at, language);
         marks.extend(drawn.into_iter().map(|mark| mark.moved([MARGIN, top])));
-        let sentence =
-            format!("At {}: {}", time_words(at, grain(log), language), snapshot.narrator.sentence(state, at, language));
+        let sentence = format!(
+            "At {}: {}",
+            time_words(at, TimeScale::of_length(log.end()), language),
+            snapshot.narrator.sentence(state, at, language)
+        );
         let size = fitting(&sentence, TextSize::BODY, width - 2.0 * MARGIN);
         marks.push(label([width / 2.0, height - MARGIN], Anchor::Centre, sentence, size, Hue::Text));
-        Self { marks, size: RING_SIZE }
+        let legend = ring_legend(&layout, state, &overlay, drawn_at, language);
+        let bottom = draw_legend(&legend, [MARGIN, height], width - 2.0 * MARGIN, &mut marks);
+        Self { marks, size: [width, bottom + MARGIN] }
     }
 
     /// Draws the timeline of a whole run: a lane for each machine, with its number and its first speed.
@@ -108,10 +118,9 @@ impl PrintedDrawing {
         time_axis(log, &window, &layout, &mut drawn, language);
         marks.extend(drawn.into_iter().map(|mark| mark.moved([LANE_LABEL_WIDTH, top])));
         let foot = top + layout.bottom() + layout.axis_height + 18.0;
-        let legend = "Bars: atoms traced. Dark lines: atoms to another machine. Pale lines: offers from neighbour to \
-                      neighbour. Ticks: results to the parent. Above: the share of the machines that traced.";
-        marks.push(label([LANE_LABEL_WIDTH, foot], Anchor::Left, legend.into(), TextSize::Small(0.9), Hue::Quiet));
-        Self { marks, size: [TIMELINE_WIDTH, foot + MARGIN] }
+        let legend = timeline_legend(&lanes, &window, language);
+        let bottom = draw_legend(&legend, [LANE_LABEL_WIDTH, foot], layout.width, &mut marks);
+        Self { marks, size: [TIMELINE_WIDTH, bottom + MARGIN] }
     }
 }
 
@@ -130,10 +139,11 @@ impl PrintedDrawing {
 
 /// Draws number and speed of the machines, as many as there is room for, and the caption of the strip above them.
 fn lane_labels(log: &RunLog, layout: &TimelineLayout, marks: &mut Vec<Mark>) {
-    let every = (TextSize::SMALL / layout.lane_height).ceil().max(1.0) as usize;
-    for (node, speed) in (0..).zip(&log.header.speeds).step_by(every) {
+    let is_low = layout.lane_height < TextSize::BODY;
+    for node in layout.numbered(if is_low { TextSize::BODY } else { 0.0 }) {
         let [top, bottom] = layout.lane(node);
-        let (y, size) = ((top + bottom) / 2.0, TextSize::Small(if every > 1 { 0.8 } else { 1.0 }));
+        let (y, size) = ((top + bottom) / 2.0, TextSize::Small(if is_low { 0.8 } else { 1.0 }));
+        let speed = &log.header.speeds[usize::from(node)];
         marks.push(label([-56.0, y], Anchor::Right, node_name(node).to_string(), TextSize::Body(0.9), Hue::Text));
         marks.push(label([-8.0, y], Anchor::Right, fraction(*speed), size, Hue::Quiet));
     }
@@ -157,12 +167,39 @@ fn time_axis(log: &RunLog, window: &TimeWindow, layout: &TimelineLayout, marks: 
     for time in times {
         let x = layout.width * window.share(time) as f32;
         marks.push(Mark::Line { points: vec![[x, y], [x, y + 5.0]], width: 1.0, ink });
-        let words = time_words(time, rate.min(grain(log)), language);
+        let words = time_words(time, TimeScale::of_length(log.end()).at_rate(rate), language);
         let half = TextSize::Small(1.0).width(words.chars().count()) / 2.0;
         let x = x.clamp(half.min(0.0), layout.width - half);
         let anchor = if x < half { Anchor::Left } else { Anchor::Centre };
         marks.push(label([x, y + 14.0], anchor, words, TextSize::Small(1.0), Hue::Quiet));
     }
+}
+
+/// Draws the sentences of a legend in as many lines as they need; returns the y of the last line.
+fn draw_legend(sentences: &[&str], [x, y]: Point, room: f32, marks: &mut Vec<Mark>) -> f32 {
+    const SIZE: TextSize = TextSize::Small(0.9);
+    const LINE_STEP: f32 = 17.0;
+    let mut lines: Vec<String> = Vec::new();
+    // A sentence is not broken.
+    for sentence in sentences {
+        let fits = |line: &String| SIZE.width(line.chars().count() + 1 + sentence.chars().count()) <= room;
+        match lines.last_mut().filter(|line| fits(line)) {
+            Some(line) => *line += &format!(" {sentence}"),
+            None => lines.push((*sentence).to_owned()),
+        }
+    }
+    let last = lines.len().saturating_sub(1);
+    for (i, line) in lines.into_iter().enumerate() {
+        marks.push(label([x, y + LINE_STEP * i as f32], Anchor::Left, line, SIZE, Hue::Quiet));
+    }
+    y + LINE_STEP * last as f32
+}
+
+/// Splits a text into lines: at line breaks, and at `\n`, as a line break is typed on the command line.
+fn text_lines(text: &str) -> impl Iterator<Item = String> {
+    let text = text.replace("\\n", "\n");
+    let lines: Vec<_> = text.lines().map(|line| line.trim().to_owned()).filter(|line| !line.is_empty()).collect();
+    lines.into_iter()
 }
 
 /// Draws the title of a run, its header in words, and its memo; returns the y below them.
@@ -178,24 +215,21 @@ fn heading(log: &RunLog, summary: Option<&Summary>, width: f32, marks: &mut Vec<
         what += &format!("; {}, efficiency {}", duration(summary.makespan, language), fraction(summary.efficiency));
     }
     let caption = &header.caption;
-    let lines = [(&what, Hue::Text), (&caption.memo, Hue::Quiet), (&caption.machine, Hue::Quiet)];
-    let title = shown(header.title(), MAX_TITLE_LETTERS);
+    let memo = text_lines(&caption.memo).take(MAX_MEMO_LINES);
+    let lines = [(what, Hue::Text)].into_iter().chain(memo.map(|line| (line, Hue::Quiet)));
+    let lines = lines.chain([(caption.machine.clone(), Hue::Quiet)]);
+    let title = shown(&text_lines(header.title()).collect::<Vec<_>>().join(" "), MAX_TITLE_LETTERS);
     let mut y = MARGIN + 6.0;
     let size = fitting(&title, 1.5 * TextSize::BODY, room);
     marks.push(label([MARGIN, y], Anchor::Left, title, size, Hue::Text));
     y += 8.0;
-    for (line, hue) in lines.into_iter().filter(|(line, _)| !line.is_empty()) {
+    for (line, hue) in lines.filter(|(line, _)| !line.is_empty()) {
         y += 18.0;
-        let line = shown(line, MAX_TITLE_LETTERS);
+        let line = shown(&line, MAX_TITLE_LETTERS);
         let size = fitting(&line, TextSize::SMALL, room).units() / TextSize::SMALL;
         marks.push(label([MARGIN, y], Anchor::Left, line, TextSize::Small(size), hue));
     }
     y + 20.0
-}
-
-/// Returns the precision of times, as a rate: finer for a shorter run.
-fn grain(log: &RunLog) -> f64 {
-    (log.end().secs() / 2.0).clamp(1e-9, 1.0)
 }
 
 /// Returns the text size, at most `size`, at which a text is at most `width` wide.
@@ -214,7 +248,10 @@ mod tests {
 
     use super::super::tests::sample_runs;
     use super::*;
+    use crate::balance::{Condition, Strategy};
     use crate::runlog::{Header, Metadata};
+    use crate::scenario::Command;
+    use crate::sim::Sim;
 
     fn texts(paper: &PrintedDrawing) -> Vec<&str> {
         let text = |mark: &'_ Mark| matches!(mark, Mark::Label { .. });
@@ -240,7 +277,7 @@ mod tests {
                         Mark::Label { at, anchor, text, size, .. } => {
                             let broad = size.width(text.chars().count());
                             let left = anchor.left(at[0], broad);
-                            inside(*at) && left >= -0.1 && (left + broad <= width + 0.1 || text.contains("Bars"))
+                            inside(*at) && left >= -0.1 && left + broad <= width + 0.1
                         }
                     };
                     prop_assert!(within, "{:?}: {mark:?}", paper.size);
@@ -268,6 +305,80 @@ mod tests {
             texts(&PrintedDrawing::timeline(&log, language)).contains(&"sample"),
             "without a title it shows the scene"
         );
+    }
+
+    /// A run of a tiny picture lasts milliseconds, or less.
+    #[test]
+    fn times_of_short_runs_can_be_told_apart() {
+        for (cost, unit) in [(Duration::from_micros(10), "ms"), (Duration::from_nanos(30), "µs")] {
+            let mut header = sample_runs::header(&[1.0, 0.5, 0.1], 300);
+            header.link.latency = cost;
+            let (mut log, mut records) = (RunLog::new(header.clone()), Vec::new());
+            Sim::new(&header, &[], move |_| cost).run(&mut |record| records.push(record));
+            log.add(records);
+            for language in [Language::English, Language::Portuguese] {
+                let timeline = PrintedDrawing::timeline(&log, language);
+                let times: Vec<_> =
+                    texts(&timeline).into_iter().filter(|text| text.ends_with(&format!(" {unit}"))).collect();
+                let distinct: std::collections::BTreeSet<_> = times.iter().collect();
+                assert!(times.len() > 3 && distinct.len() == times.len(), "{:?}", texts(&timeline));
+                let ring = PrintedDrawing::ring(&log, Time(log.end().0 / 2), language);
+                for text in texts(&timeline).into_iter().chain(texts(&ring)) {
+                    assert!(!text.contains("0.0 s") && !text.contains("0,0 s"), "{text}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn memo_has_the_lines_that_were_typed() {
+        let mut log = sample_runs::log(&[1.0, 0.1], 30);
+        log.header.caption.memo = "first\\nsecond\n\n third ".into();
+        let texts = |paper: &PrintedDrawing| texts(paper).into_iter().map(str::to_owned).collect::<Vec<_>>();
+        for paper in [
+            PrintedDrawing::ring(&log, Time(u64::MAX), Language::English),
+            PrintedDrawing::timeline(&log, Language::English),
+        ] {
+            let texts = texts(&paper);
+            let at = texts.iter().position(|text| text == "first").expect("the first line");
+            assert_eq!(texts[at..at + 3], ["first", "second", "third"]);
+        }
+    }
+
+    /// What is drawn and what is not is known from how the run was made.
+    #[test]
+    fn legend_names_what_is_drawn_and_nothing_else() {
+        let language = Language::English;
+        let said = |log: &RunLog, at: f64| {
+            let papers =
+                [PrintedDrawing::ring(log, Time::from_secs(at), language), PrintedDrawing::timeline(log, language)];
+            papers.map(|paper| texts(&paper).join(" "))
+        };
+        let [ring, timeline] = said(&sample_runs::log(&[1.0, 1.0, 0.1], 300), 1e-3);
+        assert!(ring.contains("way of offers") && !ring.contains("a request") && !ring.contains("paused"), "{ring}");
+        assert!(timeline.contains("offers") && timeline.contains("no longer needed"), "{timeline}");
+        assert!(!timeline.contains("off.") && !timeline.contains("paused"), "{timeline}");
+        let mut header = sample_runs::header(&[1.0; 3], 300);
+        header.rules.strategy = Strategy::Adaptive;
+        let at = Time::from_secs;
+        let script = [
+            (at(0.5), Command::Pause { node: 0, paused: true }),
+            (at(0.6), Command::Condition { node: 1, condition: Condition::Hung }),
+            (at(0.7), Command::Condition { node: 2, condition: Condition::Off }),
+            (at(4.0), Command::Pause { node: 0, paused: false }),
+            (at(4.0), Command::Condition { node: 1, condition: Condition::Well }),
+        ];
+        let (mut log, mut records) = (RunLog::new(header.clone()), Vec::new());
+        Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| records.push(record));
+        log.add(records);
+        let [ring, timeline] = said(&log, 2.0);
+        for words in ["Two bars: paused", "Hourglass: hung", "Power switch: off"] {
+            assert!(ring.contains(words), "{words}: {ring}");
+        }
+        for words in ["Black line in a lane: paused", "dashes: hung", "pale lane: off"] {
+            assert!(timeline.contains(words), "{words}: {timeline}");
+        }
+        assert!(!timeline.contains("cut off"), "{timeline}");
     }
 
     #[test]

@@ -168,6 +168,11 @@ fn impossible_export_is_refused_in_one_sentence() {
     assert!(said.contains("run.anel is a recorded run") && said.contains("made of a scene"), "{said}");
     let said = refused(&["export", "run.anel", "--ring", "ring.jpg"]);
     assert!(said.contains("ring.jpg is drawn as .svg or .png"), "{said}");
+    for (option, name) in [("--png", "x.jpg"), ("--gif", "x.mp4"), ("--csv", "x.xlsx"), ("--trace", "x.csv")] {
+        let said = refused(&["export", "run.anel", option, name]);
+        assert!(said.contains(name) && said.contains("give its name the ending"), "{said}");
+    }
+    assert!(refused(&["export", "ten-objects", "--pov", "scene.ron"]).contains("the ending .pov"));
     assert!(refused(&["export", "run.anel"]).contains("required"));
     assert!(refused(&["export", "run.anel", "--at", "1", "--csv", "r.csv"]).contains("--ring"));
     assert!(refused(&["export", "run.anel", "--ring", "r.svg", "--at", "-1"]).contains("--at"));

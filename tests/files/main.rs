@@ -7,5 +7,6 @@ mod bad_input;
 mod chrome_trace;
 mod exports;
 mod fuzz;
+mod names;
 mod old_runs;
 mod pictures;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anel::gui::Phase;
+use anel::gui::{Launch, Phase};
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 use tempfile::TempDir;
@@ -139,6 +139,44 @@ fn changed_file_is_offered_for_reload_and_a_removed_one_is_reported() {
     until(&mut window, "notice", |window| notice(window).contains("no such file"));
     key(&mut window, Key::R);
     until(&mut window, "atoms of the open scene", |window| done(window) > 20);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn path_that_is_not_utf_8_is_opened_remembered_and_saved_beside() {
+    use std::os::unix::ffi::OsStrExt;
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join(std::ffi::OsStr::from_bytes(b"caf\xe9.ron"));
+    std::fs::write(&path, scene("radius: 1")).expect("a file");
+    let storage = Storage::default();
+    let mut window = launch_with(SIZE, &storage, Launch::default());
+    drop_on(&mut window, &path);
+    until(&mut window, "the scene", |window| shows(window, "caf\u{fffd}"));
+    let mut stored = Storage::default();
+    eframe::App::save(window.state_mut(), &mut stored);
+    // The next window opens the file again, and shows it among the recent ones.
+    let mut window = launch_with(SIZE, &stored, Launch::default());
+    assert!(shows(&window, "caf\u{fffd}"));
+    assert_eq!(session(&window).recent(), [path]);
+    key(&mut window, Key::O);
+    press(&mut window, "Open caf\u{fffd}");
+    until(&mut window, "the scene", |window| shows(window, "caf\u{fffd}"));
+    assert_eq!(notice(&window), "");
+}
+
+#[test]
+fn run_that_is_cut_off_is_shown_up_to_there() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("run.anel");
+    let mut window = open(SIZE);
+    until(&mut window, "atoms", |window| done(window) > 100);
+    session(&window).stage().log.save(&path).expect("a run file");
+    let text = std::fs::read_to_string(&path).expect("its text");
+    std::fs::write(&path, &text[..text.len() - 5]).expect("a file");
+    open_path(&mut window, &path);
+    until(&mut window, "the run", |window| session(window).is_recorded());
+    let line = text.lines().count();
+    assert_eq!(notice(&window), format!("The run file is cut off in line {line}. The run is shown up to there"));
 }
 
 #[test]

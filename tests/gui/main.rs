@@ -12,6 +12,7 @@ mod learn;
 mod legible;
 mod nodes;
 mod portuguese;
+mod quitting;
 mod remembering;
 mod run;
 mod saving;

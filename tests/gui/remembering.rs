@@ -57,8 +57,8 @@ fn storage_of_an_earlier_version_is_read() {
     let written = "(settings: (size: (width: 320, height: 240), strategy: ring, part: 3, tempo: Lasts(7), latency: 9))";
     let window = reopen(&Storage(Some(written.into())));
     let settings = session(&window).settings();
-    assert_eq!((settings.part, settings.latency, settings.size.width()), (3, 9, 320));
-    assert_eq!((settings.handling, settings.bandwidth, settings.shared_wire), (0, 0, false));
+    assert_eq!((settings.part, settings.latency, settings.size.width()), (3, 9.0, 320));
+    assert_eq!((settings.handling, settings.bandwidth, settings.shared_wire), (0.0, 0, false));
 }
 
 #[test]

@@ -316,6 +316,25 @@ fn save_gives_the_reason_of_a_failure() {
 }
 
 #[test]
+fn name_of_another_format_is_refused() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let mut window = open(SIZE);
+    key(&mut window, Key::S);
+    for (kind, name, ending) in [
+        ("render", "x.jpg", ".png"),
+        ("timeline", "x.jpeg", ".svg or .png"),
+        ("run", "x.png", ".anel"),
+        ("table", "x.xls", ".csv"),
+    ] {
+        choose_kind(&mut window, kind);
+        type_path(&mut window, FIELD, &directory.path().join(name));
+        key(&mut window, Key::Enter);
+        window.get_by_label(&format!("{name}: this is no name for such a file. Let it end in {ending}"));
+    }
+    assert_eq!(std::fs::read_dir(directory.path()).expect("the directory").count(), 0);
+}
+
+#[test]
 fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);

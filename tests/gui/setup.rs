@@ -52,7 +52,7 @@ fn latency_applies_to_the_current_run() {
     until(&mut window, "a record", |window| set(window).last() == Some(&Duration::ZERO));
     assert!(done(&window) > 100);
     ctrl(&mut window, Key::Z);
-    assert_eq!(session(&window).settings().latency, 250);
+    assert_eq!(session(&window).settings().latency, 250.0);
 }
 
 #[test]
@@ -110,13 +110,38 @@ fn pace_restarts_the_run() {
     let mut window = open_setup();
     let pace = session(&window).header().pace;
     type_number(&mut window, "Seconds of the run", "40");
-    assert_eq!(session(&window).settings().pace, Pace::Lasts(40));
+    assert_eq!(session(&window).settings().pace, Pace::Lasts(40.0));
     assert!((session(&window).header().pace / pace - 0.5).abs() < 1e-6);
     press(&mut window, "Full speed");
     assert_eq!(session(&window).header().pace, 1.0);
     assert!(window.query_by_label("Seconds of the run").is_none());
     press(&mut window, "Slowly");
     assert!(session(&window).header().pace < 1.0);
+}
+
+#[test]
+fn typed_number_counts_as_a_whole_or_not_at_all() {
+    let mut window = open_setup();
+    for typed in ["12,5", "12.5", "12,5 ms"] {
+        type_number(&mut window, "Latency in milliseconds", "40");
+        type_number(&mut window, "Latency in milliseconds", typed);
+        assert_eq!((session(&window).settings().latency, notice(&window)), (12.5, String::new()), "{typed}");
+    }
+    type_number(&mut window, "Exact speed of machine 2", "12,5");
+    assert_eq!(session(&window).speed(1), 0.125);
+    for (field, typed, why) in [
+        ("Latency in milliseconds", "30x", "is not a number"),
+        ("Latency in milliseconds", "1,234.5", "thousands without a mark"),
+        ("Number of machines", "2,5", "is not a whole number"),
+        ("Exact speed of machine 2", "fast", "is not a number"),
+    ] {
+        let before = session(&window).settings().clone();
+        type_number(&mut window, field, typed);
+        let said = notice(&window);
+        assert!(said.starts_with(&format!("“{typed}”")) && said.contains(why) && said.contains(field), "{said}");
+        assert_eq!(*session(&window).settings(), before);
+        press(&mut window, "Close notice");
+    }
 }
 
 #[test]

@@ -192,7 +192,9 @@ impl App {
 
     /// Closes what lies on top: help, list, page, bar, notice, inspector, mode, zoom, selection or lesson.
     fn close_topmost(&mut self, ctx: &Context) {
-        if self.help {
+        if self.is_waiting_to_quit() {
+            self.stay_open();
+        } else if self.help {
             self.help = false;
         } else if self.time.is_finding() {
             self.time.toggle_find();

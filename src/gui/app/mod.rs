@@ -4,7 +4,9 @@ mod commands;
 mod launch;
 mod main_area_layout;
 mod notices;
+mod quitting;
 mod repaint_schedule;
+mod stored_path;
 
 use std::time::Duration;
 
@@ -28,6 +30,7 @@ use super::panels::timeline::{self, TimelinePanel};
 use super::panels::{inspector, narration, nodes, notice, ring, top_bar};
 use super::session::{JobResult, Purpose, Session};
 use super::settings::Settings;
+use super::widgets::number::RefusedNumber;
 use super::widgets::test_positions;
 use super::widgets::theme::{self, GRID, Look};
 use crate::balance::NodeId;
@@ -36,6 +39,7 @@ use crate::time::Time;
 use crate::view::{Details, Highlight, Subject};
 pub use launch::Launch;
 use main_area_layout::split_main_area;
+use quitting::Quitting;
 
 /// The content of the window.
 pub struct App {
@@ -64,6 +68,7 @@ pub struct App {
     runs_begun: usize,
     /// Presentation mode: large text, strong colours, no controls.
     projector: bool,
+    quitting: Quitting,
 }
 
 /// The state that the next window restores, beside egui's own.
@@ -98,10 +103,10 @@ impl App {
         let settings = if stored.settings.check(language).is_ok() { stored.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
         session.set_language(language);
-        session.set_recent(stored.recent);
+        session.set_recent(stored.recent.iter().map(|path| stored_path::read(path)).collect());
         match (launch.opening, &stored.scene) {
             (Some(opening), _) => session.show(opening),
-            (None, Some(scene)) => session.open(scene),
+            (None, Some(scene)) => session.open(stored_path::read(scene)),
             (None, None) => session.open("ten-objects"),
         }
         let mut picture = PicturePanel::default();
@@ -126,6 +131,7 @@ impl App {
             narration_rect: None,
             runs_begun: 0,
             projector: stored.projector,
+            quitting: Quitting::default(),
         }
     }
 
@@ -170,7 +176,7 @@ impl App {
         let dropped = ctx.input(|input| input.raw.dropped_files.clone());
         let Some(first) = dropped.first().map(|file| file.path().to_owned()) else { return };
         self.gallery.close();
-        self.session.open(&first.to_string_lossy());
+        self.session.open(&first);
         if dropped.len() > 1 {
             let name = first.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let count = dropped.len();
@@ -345,6 +351,7 @@ impl eframe::App for App {
                 _ => {}
             }
         }
+        self.close_when_written(ctx);
         if let Some(selected) = self.learn.tick(&mut self.session) {
             self.selection.selected = selected;
             self.shows_timeline = self.learn.wants_timeline().unwrap_or(self.shows_timeline);
@@ -365,7 +372,11 @@ impl eframe::App for App {
         }
         ui.painter().rect_filled(ui.max_rect(), 0.0, Look::of(ui.ctx()).ground);
         self.panels(ui);
+        if let Some(refused) = RefusedNumber::take(ui.ctx()) {
+            self.session.trouble(refused.sentence(language));
+        }
         self.notices(ui.ctx());
+        self.ask_to_quit(ui.ctx());
         if self.help && help::show(ui.ctx(), language) {
             self.help = false;
         }
@@ -376,13 +387,13 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn Storage) {
         let scene = self.session.opened().and_then(|opened| match &opened.path {
-            Some(path) => std::path::absolute(path).ok().map(|path| path.to_string_lossy().into_owned()),
+            Some(path) => std::path::absolute(path).ok().map(|path| stored_path::write(&path)),
             None => crate::scene::built_in(&opened.name).map(|_| opened.name.clone()),
         });
         let stored = StoredState {
             settings: self.session.settings().clone(),
             scene,
-            recent: self.session.recent().to_vec(),
+            recent: self.session.recent().iter().map(|path| stored_path::write(path)).collect(),
             blend: Some(self.picture.blend),
             is_setup_open: self.setup.open,
             shows_timeline: self.shows_timeline,

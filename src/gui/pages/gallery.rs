@@ -8,7 +8,7 @@ use egui::{TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2};
 use crate::gui::session::Thumbnail;
 use crate::gui::session::{Purpose, Session};
 use crate::gui::widgets::icons::Icon;
-use crate::gui::widgets::path_input::{no_file_chosen, path_field, resolve};
+use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, path_field};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
 use crate::language::{say, word};
@@ -19,7 +19,7 @@ use crate::scene::BUILT_IN;
 pub struct Gallery {
     open: bool,
     wants_focus: bool,
-    path: String,
+    path: TypedPath,
     trouble: Option<String>,
     tiles: Vec<Tile>,
 }
@@ -27,7 +27,7 @@ pub struct Gallery {
 /// A scene of the page.
 struct Tile {
     /// Name or path of the scene.
-    scene: String,
+    scene: PathBuf,
     thumbnail: TileThumbnail,
 }
 
@@ -50,12 +50,12 @@ impl Gallery {
         if !self.open {
             return;
         }
-        let built_in = BUILT_IN.iter().map(|(name, _)| (*name).to_owned());
-        let recent = session.recent().iter().filter(|path| path.ends_with(".ron")).cloned();
+        let built_in = BUILT_IN.iter().map(|(name, _)| PathBuf::from(name));
+        let recent = session.recent().iter().filter(|path| has_ending(path, "ron")).cloned();
         let mut scenes: Vec<_> = built_in.chain(recent).collect();
         for old in std::mem::take(&mut self.tiles) {
             // Only thumbnails of built-in scenes are kept, because a file may have changed.
-            let is_built_in = BUILT_IN.iter().any(|(name, _)| *name == old.scene);
+            let is_built_in = BUILT_IN.iter().any(|(name, _)| old.scene.as_os_str() == *name);
             if is_built_in && matches!(old.thumbnail, TileThumbnail::Ready(_)) {
                 scenes.retain(|scene| *scene != old.scene);
                 self.tiles.push(old);
@@ -78,12 +78,12 @@ impl Gallery {
     }
 
     /// Takes the thumbnail of a scene.
-    pub fn take_thumbnail(&mut self, ctx: &egui::Context, scene: &str, result: Result<Thumbnail, String>) {
+    pub fn take_thumbnail(&mut self, ctx: &egui::Context, scene: &Path, result: Result<Thumbnail, String>) {
         if let Some(tile) = self.tiles.iter_mut().find(|tile| tile.scene == scene) {
             tile.thumbnail = match result {
                 Ok(Thumbnail { size, rgb }) => {
                     let image = ColorImage::from_rgb([size.width() as usize, size.height() as usize], &rgb);
-                    TileThumbnail::Ready(ctx.load_texture(scene, image, TextureOptions::LINEAR))
+                    TileThumbnail::Ready(ctx.load_texture(scene.to_string_lossy(), image, TextureOptions::LINEAR))
                 }
                 Err(why) => TileThumbnail::Failed(why),
             };
@@ -96,7 +96,7 @@ impl Gallery {
         match chosen {
             Some(path) => {
                 self.open = false;
-                session.open(&path.to_string_lossy());
+                session.open(path);
             }
             None => self.trouble = Some(no_file_chosen(language).into()),
         }
@@ -128,15 +128,15 @@ impl Gallery {
                 "caminho de uma cena ou lição (.ron), ou execução (.anel)"
             );
             let name = word!(language, "Path of the file to open", "Caminho do arquivo a abrir");
-            let field = path_field(ui, (&mut self.path, hint), width, name, &mut self.wants_focus);
+            let field = path_field(ui, (self.path.text_mut(), hint), width, name, &mut self.wants_focus);
             if field.changed {
                 self.trouble = None;
             }
             if button(ui, None, word!(language, "Open", "Abrir"), true, Emphasis::Primary).clicked() || field.entered {
-                match resolve(&self.path, std::env::home_dir(), language) {
+                match self.path.resolve(std::env::home_dir(), language) {
                     Ok(path) => {
                         self.open = false;
-                        session.open(&path.to_string_lossy());
+                        session.open(path);
                     }
                     Err(why) => self.trouble = Some(why),
                 }
@@ -158,14 +158,13 @@ impl Gallery {
                 "Você também pode soltar um arquivo na janela."
             );
             ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
-            let last =
-                session.recent().iter().find(|path| path.ends_with(".anel") && Path::new(path).is_file()).cloned();
+            let last = session.recent().iter().find(|path| has_ending(path, "anel") && path.is_file()).cloned();
             let name = word!(language, "Open the last saved run", "Abrir a última execução salva");
             if let Some(last) = last
-                && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(&last).clicked()
+                && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(last.to_string_lossy()).clicked()
             {
                 self.open = false;
-                session.open(&last);
+                session.open(last);
             }
         });
     }
@@ -221,19 +220,22 @@ impl Gallery {
             }
             let at = pos2(rect.left(), rect.bottom() - caption / 2.0);
             painter.text(at, Align2::LEFT_CENTER, &name, theme::strong(theme::BODY), look.text);
-            if response.on_hover_text(&tile.scene).clicked() {
+            if response.on_hover_text(tile.scene.to_string_lossy()).clicked() {
                 opened = Some(tile.scene.clone());
             }
         }
         if let Some(scene) = opened {
             self.open = false;
-            session.open(&scene);
+            session.open(scene);
         }
     }
 }
 
 /// Returns the name of a scene: its file name without the extension.
-fn name_of(scene: &str) -> String {
-    let stem = Path::new(scene).file_stem();
-    stem.map_or_else(|| scene.to_owned(), |stem| stem.to_string_lossy().into_owned())
+fn name_of(scene: &Path) -> String {
+    scene.file_stem().unwrap_or(scene.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    path.extension().is_some_and(|extension| extension == ending)
 }

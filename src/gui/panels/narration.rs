@@ -10,8 +10,8 @@ use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
-    Details, Happening, NodeShare, node_name, node_shares, percent, record_words, result_words, seconds_words,
-    summary_figures, unfinished_words, work_split_words,
+    Details, Happening, NodeShare, TimeScale, node_name, node_shares, percent, record_words, result_words,
+    summary_figures, time_words, unfinished_words, work_split_words,
 };
 
 const SENTENCE_HEIGHT_PT: f32 = 3.25 * GRID;
@@ -45,7 +45,7 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>) {
             sentence(upper, session, look);
             let stage = session.stage();
             let earlier = stage.narrator().earlier(stage.state(), session.now());
-            events(upper, earlier.rev().take(events_shown(upper)), look, language);
+            events(upper, earlier.rev().take(events_shown(upper)), stage.time_scale(), look, language);
         }
     }
     bar(ui, below, session, look);
@@ -66,7 +66,7 @@ fn events_shown(ui: &Ui) -> usize {
 fn selected(ui: &mut Ui, session: &Session, details: &Details, look: Look) {
     let language = session.language();
     let stage = session.stage();
-    let (title, more) = details.words(stage.state(), stage.now(), stage.grain(), language);
+    let (title, more) = details.words(stage.state(), stage.now(), stage.playback_scale(), language);
     let area = ui.available_rect_before_wrap();
     let response = ui.interact(area, ui.scope_id().with("selected"), Sense::hover());
     widgets::describe(&response, word!(language, "Selected", "Selecionado"), || format!("{title}. {more}"));
@@ -119,13 +119,19 @@ fn sentence(ui: &mut Ui, session: &Session, look: Look) {
 }
 
 /// Shows events with their times, one line each.
-fn events<'a>(ui: &mut Ui, events: impl Iterator<Item = (Time, &'a Happening)>, look: Look, language: Language) {
+fn events<'a>(
+    ui: &mut Ui,
+    events: impl Iterator<Item = (Time, &'a Happening)>,
+    scale: TimeScale,
+    look: Look,
+    language: Language,
+) {
     let font = theme::regular(theme::SMALL);
     for (at, event) in events {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT_HEIGHT_PT), Sense::hover());
         widgets::describe(&response, word!(language, "Event", "Evento"), || event.sentence(language));
         let y = line.center().y;
-        let time = seconds_words(at.secs(), language);
+        let time = time_words(at, scale, language);
         ui.painter().text(pos2(line.left() + 5.0 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
         let galley = one_line(ui, &event.sentence(language), &font, look, line.width() - 6.0 * GRID);
         ui.painter().galley(pos2(line.left() + 6.0 * GRID, y - galley.size().y / 2.0), galley, look.quiet);
@@ -161,7 +167,7 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     let rest = area.with_min_y(area.top() + 7.0 * GRID);
     let lines = (rest.height().max(0.0) / EVENT_HEIGHT_PT) as usize;
     ui.scope_builder(UiBuilder::new().max_rect(rest), |ui| {
-        events(ui, stage.narrator().events().rev().take(lines), look, language);
+        events(ui, stage.narrator().events().rev().take(lines), stage.time_scale(), look, language);
     });
     let parts = work_split_words(stage.state(), language).unwrap_or_default();
     let height =

@@ -83,7 +83,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
     }
     // Presentation mode has no top bar with the time.
     if Look::is_strong(painter.ctx()) {
-        let time = time_words(stage.lasted(), stage.grain(), language);
+        let time = time_words(stage.lasted(), stage.playback_scale(), language);
         let font = theme::strong(theme::LARGE);
         painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
     }

@@ -15,7 +15,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, cycle, named_button, popup_frame};
 use crate::language::{Language, say, word};
 use crate::time::Time;
-use crate::view::{Landmark, Marker, MarkerKind, StepUnit, condition_strokes, landmarks, time_words};
+use crate::view::{Landmark, Marker, MarkerKind, StepUnit, TimeScale, condition_strokes, landmarks, time_words};
 
 /// Height of the panel, in points.
 pub const HEIGHT_PT: f32 = 4.0 * GRID;
@@ -159,7 +159,7 @@ impl TimePanel {
             ui.spacing_mut().item_spacing.y = GRID / 4.0;
             let mut chosen = None;
             for (index, mark) in self.landmarks.iter().enumerate() {
-                if entry(ui, (index + 1, mark), session.stage().grain(), look, language).clicked() {
+                if entry(ui, (index + 1, mark), session.stage().playback_scale(), look, language).clicked() {
                     chosen = Some(UserCommand::Jump(mark.records, mark.subject));
                 }
             }
@@ -184,7 +184,13 @@ fn keys(step: StepUnit, arrow: char) -> String {
 }
 
 /// Shows a landmark of the list: its number, its text and its time.
-fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look, language: Language) -> Response {
+fn entry(
+    ui: &mut Ui,
+    (number, mark): (usize, &Landmark),
+    scale: TimeScale,
+    look: Look,
+    language: Language,
+) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 3.5 * GRID), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &mark.words));
     if response.hovered() || response.has_focus() {
@@ -196,7 +202,7 @@ fn entry(ui: &mut Ui, (number, mark): (usize, &Landmark), rate: f64, look: Look,
     ui.painter().text(pos2(rect.left() + GRID, y), Align2::LEFT_CENTER, number, font, look.quiet);
     ui.painter().galley(pos2(rect.left() + 3.0 * GRID, y - words.size().y / 2.0), words, look.text);
     let time =
-        ui.painter().layout_no_wrap(time_words(mark.at, rate, language), theme::regular(theme::SMALL), look.quiet);
+        ui.painter().layout_no_wrap(time_words(mark.at, scale, language), theme::regular(theme::SMALL), look.quiet);
     ui.painter().galley(pos2(rect.right() - GRID - time.size().x, y - time.size().y / 2.0), time, look.quiet);
     response
 }
@@ -257,12 +263,12 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
         rail.left() + rail.width() * share.clamp(0.0, 1.0) as f32
     };
     let now = stage.lasted();
-    let grain = stage.grain();
+    let scale = stage.playback_scale();
     response.widget_info(|| {
         let mut info = WidgetInfo::slider(true, now.secs(), word!(language, "The run's time", "O tempo da execução"));
         let is_more = stage.phase == Phase::Running || stage.hides_later;
         let of = if is_more { word!(language, "so far", "até agora") } else { word!(language, "in all", "ao todo") };
-        let [now, length] = [now, length].map(|time| time_words(time, grain, language));
+        let [now, length] = [now, length].map(|time| time_words(time, scale, language));
         info.current_text_value = Some(say!(language, "{now} of {length} {of}", "{now} de {length} {of}"));
         info
     });
@@ -290,7 +296,7 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     if let Some(at) = response.hover_pos().filter(|_| length > Time::ZERO) {
         let pointed = time_at(at);
         let reach = Duration::from_secs_f64(length.secs() * f64::from(6.0 / rail.width().max(1.0)));
-        let mut lines = vec![time_words(pointed, grain * 0.1, language)];
+        let mut lines = vec![time_words(pointed, scale.finer(1), language)];
         lines.extend(
             stage
                 .markers()

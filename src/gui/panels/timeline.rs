@@ -13,8 +13,8 @@ use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
-    Details, Highlight, Subject, TimeWindow, Timeline, TimelineLayout, activity_word, axis, bytes_words, count,
-    fraction, node_name, time_words, timeline, timeline_at,
+    Details, Highlight, Subject, TimeScale, TimeWindow, Timeline, TimelineLayout, activity_word, axis, bytes_words,
+    count, fraction, node_name, time_words, timeline, timeline_at,
 };
 
 /// Width of the heads left of the lanes (number, slider, speed), in points.
@@ -22,6 +22,9 @@ const HEAD_WIDTH_PT: f32 = 20.0 * GRID;
 
 /// Least height of a lane whose head has a slider, in points.
 const MIN_SLIDER_LANE_PT: f32 = 16.0;
+
+/// Least height of a lane whose number stands in its chip, in points.
+const MIN_NUMBERED_LANE_PT: f32 = 15.0;
 
 /// The timeline panel.
 #[derive(Default)]
@@ -85,17 +88,21 @@ impl TimelinePanel {
         let stage = session.stage();
         describe(&response, stage, language);
         if let Some(details) = hovered.filter(|_| response.hovered() && !response.dragged()) {
-            let (title, more) = details.words(stage.state(), stage.now(), stage.grain(), language);
+            let (title, more) = details.words(stage.state(), stage.now(), stage.playback_scale(), language);
             response.clone().on_hover_text_at_pointer(format!("{title}\n{more}"));
         }
         let painter = ui.painter_at(lanes.expand(1.0));
         self.paint(&painter, lanes, &layout, stage, highlight, look);
         usage(&ui.painter_at(area), area, &layout, stage, look, language);
-        self.axis(&painter, lanes, &layout, look, language);
+        let scale = TimeScale::of_length(stage.shown_length());
+        self.axis(&painter, lanes, &layout, scale, look, language);
         for node in 0..nodes as NodeId {
             let [top, bottom] = layout.lane(node).map(|y| area.top() + y);
             let row = Rect::from_min_max(pos2(area.left(), top), pos2(area.left() + left - GRID, bottom));
             lane_head(ui, row, node, session, selection, highlight.nodes.contains(&node));
+        }
+        if layout.lane_height < MIN_NUMBERED_LANE_PT {
+            numbers(ui.painter(), area, &layout, look);
         }
     }
 
@@ -127,7 +134,15 @@ impl TimelinePanel {
     }
 
     /// Paints the time axis below the lanes.
-    fn axis(&self, painter: &Painter, lanes: Rect, layout: &TimelineLayout, look: Look, language: Language) {
+    fn axis(
+        &self,
+        painter: &Painter,
+        lanes: Rect,
+        layout: &TimelineLayout,
+        scale: TimeScale,
+        look: Look,
+        language: Language,
+    ) {
         if layout.axis_height == 0.0 {
             return;
         }
@@ -136,8 +151,8 @@ impl TimelinePanel {
         for time in times {
             let x = lanes.left() + lanes.width() * self.window.share(time) as f32;
             painter.line_segment([pos2(x, top), pos2(x, top + 4.0)], Stroke::new(1.0, look.quiet));
-            let galley =
-                painter.layout_no_wrap(time_words(time, rate, language), theme::regular(theme::SMALL), look.quiet);
+            let words = time_words(time, scale.at_rate(rate), language);
+            let galley = painter.layout_no_wrap(words, theme::regular(theme::SMALL), look.quiet);
             let left = (x + 4.0).min(lanes.right() - galley.size().x);
             painter.galley(pos2(left, top + 2.0), galley, look.quiet);
         }
@@ -274,15 +289,10 @@ fn lane_head(
         let stroke = Stroke::new(1.5, look.text);
         ui.painter().rect_stroke(chip.expand(1.0), 4.0, stroke, egui::StrokeKind::Outside);
     }
-    // Numbers of low lanes stand beside the chips, and only every nth has room.
-    let each = (13.0 / row.height().max(1.0)).ceil() as u16;
-    if each == 1 {
+    if row.height() >= MIN_NUMBERED_LANE_PT - 2.0 {
         let ink = theme::colour(text_on(own));
         let font = theme::strong(theme::SMALL.min(row.height()));
         ui.painter().text(chip.center(), Align2::CENTER_CENTER, node_name(node), font, ink);
-    } else if node.is_multiple_of(each) {
-        let left = pos2(chip.right() + GRID, row.center().y);
-        ui.painter().text(left, Align2::LEFT_CENTER, node_name(node), theme::regular(11.0), look.quiet);
     }
     if row.height() >= MIN_SLIDER_LANE_PT {
         let slider = Rect::from_min_max(pos2(chip.right() + GRID, row.top()), row.max);
@@ -291,6 +301,16 @@ fn lane_head(
         let speed = fraction(session.speed(node));
         let right = pos2(slider.right(), row.center().y);
         ui.painter().text(right, Align2::RIGHT_CENTER, speed, theme::regular(theme::SMALL), look.quiet);
+    }
+}
+
+/// Paints the numbers of low lanes beside their chips, as many as have room.
+fn numbers(painter: &Painter, area: Rect, layout: &TimelineLayout, look: Look) {
+    let chip_width = 2.5 * GRID;
+    for node in layout.numbered(MIN_NUMBERED_LANE_PT) {
+        let [top, bottom] = layout.lane(node);
+        let left = pos2(area.left() + chip_width + GRID / 2.0, area.top() + (top + bottom) / 2.0);
+        painter.text(left, Align2::LEFT_CENTER, node_name(node), theme::regular(11.0), look.quiet);
     }
 }
 
@@ -331,7 +351,7 @@ fn usage_figures(stage: &Stage, language: Language) -> [String; 4] {
 fn describe(response: &Response, stage: &Stage, language: Language) {
     widgets::describe(response, word!(language, "Timeline", "Linha do tempo"), || {
         let [until, length] =
-            [stage.lasted(), stage.shown_length()].map(|time| time_words(time, stage.grain(), language));
+            [stage.lasted(), stage.shown_length()].map(|time| time_words(time, stage.playback_scale(), language));
         let is_over = stage.phase == Phase::Finished && !stage.hides_later;
         let of = if is_over { word!(language, "in all", "ao todo") } else { word!(language, "so far", "até agora") };
         let usage = usage_figures(stage, language).join(" · ");

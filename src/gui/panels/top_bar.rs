@@ -55,7 +55,7 @@ pub fn show(ui: &mut Ui, session: &Session, open: OpenPages) -> Option<UserComma
         ui.with_layout(from_right, |ui| {
             clicked = clicked.or(buttons(ui, session, labelled, open));
             ui.add_space(if is_wide { 2.0 * GRID } else { GRID });
-            let time = time_words(session.stage().lasted(), session.stage().grain(), language);
+            let time = time_words(session.stage().lasted(), session.stage().playback_scale(), language);
             let font = theme::strong(theme::LARGE);
             let needed = ui.painter().layout_no_wrap(time.clone(), font.clone(), look.text).size().x;
             if needed < ui.available_width() {

@@ -1,5 +1,6 @@
 //! The job that exports what takes long: pictures of another size, animations, drawings, tables.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use super::jobs::save_message;
 use crate::cancel::{CancelOnDrop, CancelToken};
 use crate::driver::{TracedPicture, trace_strips};
 use crate::export::{Comparison, Drawing, Film, write_chrome, write_csv};
-use crate::language::say;
+use crate::language::{Language, say};
 use crate::output::write_whole;
 use crate::picture::{Frame, Quality, Region, Size, write_png, write_png_with_alpha};
 use crate::runlog::RunLog;
@@ -111,8 +112,10 @@ impl Session {
                     send(JobResult::Progress(job, share));
                 }
             };
-            let result = source.write(&path, export, ExportContext { progress: &progress, cancel: &cancel });
-            send(JobResult::Exported(job, save_message(&path, result, language)));
+            let missing = source.write(&path, export, ExportContext { progress: &progress, cancel: &cancel });
+            let letters = missing.as_ref().map(|letters| letters.iter().collect::<String>()).unwrap_or_default();
+            let saved = save_message(&path, missing.map(drop), language);
+            send(JobResult::Exported(job, saved.map(|saved| with_missing_letters(saved, &letters, language))));
         });
     }
 
@@ -146,16 +149,29 @@ impl Session {
     }
 }
 
+/// Adds to the message of a saved drawing that no font has these letters, if there are any.
+fn with_missing_letters(saved: String, letters: &str, language: Language) -> String {
+    if letters.is_empty() {
+        return saved;
+    }
+    say!(
+        language,
+        "{saved}. No font of this computer has {letters}; they are drawn as boxes. Save it as .svg instead",
+        "{saved}. Nenhuma fonte deste computador tem {letters}; aparecem como caixas. Salve como .svg"
+    )
+}
+
 impl ExportSource {
-    /// Makes the file.
+    /// Makes the file. Returns the letters that no font of this computer has.
     ///
     /// # Errors
     /// A sentence, if the picture cannot be traced or the file cannot be written.
-    fn write(&self, path: &Path, export: Export, context: ExportContext<'_>) -> Result<(), String> {
+    fn write(&self, path: &Path, export: Export, context: ExportContext<'_>) -> Result<BTreeSet<char>, String> {
         let ExportContext { progress, cancel } = context;
         let log = &self.log;
         let is_png = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
-        let write = |fill: &dyn Fn(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
+        let mut missing = BTreeSet::new();
+        let write = |fill: &mut dyn FnMut(&mut BufWriter<&mut File>) -> io::Result<()>| write_whole(path, fill);
         let written = match export {
             Export::Picture(PictureExport { size, quality, region, transparent }) => {
                 let tracer = self.tracer(size, quality)?;
@@ -167,25 +183,29 @@ impl ExportSource {
                 let write = if transparent { write_png_with_alpha } else { write_png };
                 write(path, tracer.size(), &bytes.ok_or(CANCELLED)?)
             }
-            Export::Drawing(drawing) => write(&|file| drawing.write(file, log, is_png)),
-            Export::Bars(comparison) => write(&|file| comparison.write_bars(file, is_png)),
-            Export::Rows(comparison) => write(&|file| comparison.write_csv(file)),
+            Export::Drawing(drawing) => {
+                write(&mut |file| drawing.write(file, log, is_png).map(|letters| missing = letters))
+            }
+            Export::Bars(comparison) => {
+                write(&mut |file| comparison.write_bars(file, is_png).map(|letters| missing = letters))
+            }
+            Export::Rows(comparison) => write(&mut |file| comparison.write_csv(file)),
             Export::Film(film) => {
                 let frame = match &self.frame {
                     Some(frame) => frame.clone(),
                     None => self.trace(cancel)?,
                 };
-                write(&|file| {
+                write(&mut |file| {
                     film.write(file, log, &frame, &mut |share| {
                         progress(share);
                         !cancel.is_cancelled()
                     })
                 })
             }
-            Export::Table => write(&|file| write_csv(file, log)),
-            Export::Chrome => write(&|file| write_chrome(file, log)),
+            Export::Table => write(&mut |file| write_csv(file, log)),
+            Export::Chrome => write(&mut |file| write_chrome(file, log)),
         };
-        written.map_err(|error| error.to_string())
+        written.map(|()| missing).map_err(|error| error.to_string())
     }
 
     fn tracer(&self, size: Size, quality: Quality) -> Result<Tracer, String> {

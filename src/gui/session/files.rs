@@ -30,11 +30,11 @@ impl Session {
     }
 
     /// Reads a file or a built-in scene and shows it. Until then, and if that fails, the present run stays.
-    pub fn open(&mut self, argument: &str) {
+    pub fn open(&mut self, argument: impl AsRef<Path>) {
         let language = self.language;
-        let name =
-            Path::new(argument).file_name().map_or_else(|| argument.into(), |name| name.to_string_lossy().into());
-        if let Some(log) = self.log_path.as_deref().filter(|log| is_same_file(log, Path::new(argument))) {
+        let path = argument.as_ref().to_owned();
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        if let Some(log) = self.log_path.as_deref().filter(|log| is_same_file(log, &path)) {
             let log = log.display();
             return self.trouble(say!(
                 language,
@@ -43,8 +43,7 @@ impl Session {
             ));
         }
         self.camera_move = None;
-        let argument = argument.to_owned();
-        self.load(name, move || Opening::read(&argument));
+        self.load(name, move || Opening::read(path));
     }
 
     /// Reads the file of the scene again.
@@ -53,7 +52,7 @@ impl Session {
         if !self.is_recorded()
             && let Some(path) = self.opened().and_then(|opened| opened.path.clone())
         {
-            self.open(&path.to_string_lossy());
+            self.open(path);
         }
     }
 
@@ -85,7 +84,10 @@ impl Session {
         self.note_saving(&path);
         let Stage { frame, colours, .. } = &self.stage;
         let (frame, state, colours) = (frame.clone(), self.stage.latest().clone(), colours.clone());
-        self.jobs.save_picture(path, frame.size(), move || picture_pixels(&frame, &state, &colours, look), language);
+        let name = file_name(&path);
+        let pixels = move || picture_pixels(&frame, &state, &colours, look);
+        let job = self.jobs.save_picture(path, self.stage.frame.size(), pixels, language);
+        self.saving.insert(job, name);
     }
 
     /// Returns the picture, as far as it is traced, for the clipboard.
@@ -97,7 +99,6 @@ impl Session {
 
     /// Writes the run so far in the background, with a title and a memo.
     pub fn save_run(&mut self, path: PathBuf, title: &str, memo: &str) {
-        let language = self.language;
         self.note_saving(&path);
         let caption = &mut self.stage.log.header.caption;
         (caption.title, caption.memo) = (title.trim().to_owned(), memo.trim().to_owned());
@@ -105,8 +106,30 @@ impl Session {
         if let Some(recorded) = &mut self.recorded {
             Arc::make_mut(&mut recorded.log).header.caption = caption.clone();
         }
-        self.remember(path.to_string_lossy().into_owned());
-        self.jobs.save_run(path, self.stage.log.clone(), language);
+        self.remember(path.clone());
+        self.save_log(path);
+    }
+
+    /// Returns the names of the files that are being written. For the export in progress it also returns the share that
+    /// is done, 0 to 1.
+    pub fn files_in_progress(&self) -> Vec<(&str, Option<f64>)> {
+        let export = self.export_progress().map(|(name, _, share)| (name, Some(share)));
+        export.into_iter().chain(self.saving.values().map(|name| (&**name, None))).collect()
+    }
+
+    /// Takes the result of saving a file.
+    pub(super) fn take_saved(&mut self, job: u64, result: Result<String, String>) {
+        self.saving.remove(&job);
+        match result {
+            Ok(message) => self.note(message),
+            Err(why) => self.trouble(why),
+        }
+    }
+
+    fn save_log(&mut self, path: PathBuf) {
+        let name = file_name(&path);
+        let job = self.jobs.save_run(path, self.stage.log.clone(), self.language);
+        self.saving.insert(job, name);
     }
 
     fn note_saving(&mut self, path: &Path) {
@@ -122,6 +145,20 @@ impl Session {
             && let Err(error) = self.stage.log.save(path)
         {
             eprintln!("anel: {error}");
+        }
+    }
+
+    /// Shows a recorded run that was read from a file. If the file is cut off, says so.
+    pub(super) fn open_recorded(&mut self, recorded: Recorded) {
+        let language = self.language;
+        let cut_off_at = recorded.log.cut_off_at();
+        self.play(recorded);
+        if let Some(line) = cut_off_at {
+            self.trouble(say!(
+                language,
+                "The run file is cut off in line {line}. The run is shown up to there",
+                "O arquivo da execução está cortado na linha {line}. A execução é mostrada até ali"
+            ));
         }
     }
 
@@ -142,10 +179,9 @@ impl Session {
     }
 
     /// Writes the records in the background to the file of `--log`, if given.
-    pub(super) fn write_log(&self) {
-        let language = self.language;
+    pub(super) fn write_log(&mut self) {
         if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.source) {
-            self.jobs.save_run(path.clone(), self.stage.log.clone(), language);
+            self.save_log(path.clone());
         }
     }
 
@@ -161,7 +197,7 @@ impl Session {
         let language = self.language;
         let path = prepared.opened.path.clone();
         if let Some(path) = &path {
-            self.remember(path.to_string_lossy().into_owned());
+            self.remember(path.clone());
         }
         self.jobs.watch(path, language);
         if !self.is_camera_moving() {
@@ -189,7 +225,7 @@ impl Session {
     /// Shows the notice that the open file has changed or was deleted.
     pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {
         let language = self.language;
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = file_name(path);
         self.notice = Some(match change {
             FileChange::Written => {
                 let text = say!(language, "{name} has changed on disk", "{name} mudou no disco");
@@ -207,20 +243,25 @@ impl Session {
     }
 
     /// Returns the files that were opened last, the latest first.
-    pub fn recent(&self) -> &[String] {
+    pub fn recent(&self) -> &[PathBuf] {
         &self.recent
     }
 
     /// Sets the files that were opened in earlier windows.
-    pub fn set_recent(&mut self, recent: Vec<String>) {
+    pub fn set_recent(&mut self, recent: Vec<PathBuf>) {
         self.recent = recent;
     }
 
     /// Puts the file first among the recent ones.
-    fn remember(&mut self, file: String) {
+    fn remember(&mut self, file: PathBuf) {
         const MAX_RECENT: usize = 8;
         self.recent.retain(|other| *other != file);
         self.recent.insert(0, file);
         self.recent.truncate(MAX_RECENT);
     }
+}
+
+/// Returns the name of a file as text.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

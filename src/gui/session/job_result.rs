@@ -21,7 +21,9 @@ pub enum JobResult {
     /// A scene, run or lesson is read and compiled, or a sentence says why not.
     Ready(u64, Result<Ready, String>),
     /// A file is written: a sentence with its path, or the reason why not.
-    Saved(Result<String, String>),
+    Saved(u64, Result<String, String>),
+    /// A job without a number could not begin, for this reason.
+    Failed(String),
     /// Share of an export that is done, 0 to 1.
     Progress(u64, f64),
     /// An export has ended: a sentence with the file's path, or the reason why it failed.
@@ -29,7 +31,7 @@ pub enum JobResult {
     /// The file dialog has closed; `None` if it was cancelled or is not available.
     Chosen(Purpose, Option<PathBuf>),
     /// The thumbnail of a scene, by the scene's name or path, or the reason why there is none.
-    Thumbnail(String, Result<Thumbnail, String>),
+    Thumbnail(PathBuf, Result<Thumbnail, String>),
     /// A part of the measurement of speed and accuracy.
     Found(u64, Finding),
     /// A part of a comparison.

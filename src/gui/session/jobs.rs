@@ -11,6 +11,7 @@ use super::job_result::{FileChange, JobResult, Purpose};
 use super::preview::thumbnail;
 use crate::cancel::CancelOnDrop;
 use crate::language::{Language, say, word};
+use crate::output::OutputError;
 use crate::picture::{Size, write_png};
 use crate::runlog::RunLog;
 use crate::scene::Opened;
@@ -40,22 +41,34 @@ impl Jobs {
         self.receiver.try_iter().collect()
     }
 
-    /// Writes a PNG of these pixels (three bytes each).
+    /// Writes a PNG of these pixels (three bytes each). Returns the number of the job.
     pub fn save_picture(
-        &self,
+        &mut self,
         path: PathBuf,
         size: Size,
         pixels: impl FnOnce() -> Vec<u8> + Send + 'static,
         language: Language,
-    ) {
-        self.start(language, "save", move || {
-            JobResult::Saved(save_message(&path, write_png(&path, size, &pixels()), language))
-        });
+    ) -> u64 {
+        self.save(path, move |path| write_png(path, size, &pixels()), language)
     }
 
-    /// Writes a run file.
-    pub fn save_run(&self, path: PathBuf, log: RunLog, language: Language) {
-        self.start(language, "save", move || JobResult::Saved(save_message(&path, log.save(&path), language)));
+    /// Writes a run file. Returns the number of the job.
+    pub fn save_run(&mut self, path: PathBuf, log: RunLog, language: Language) -> u64 {
+        self.save(path, move |path| log.save(path), language)
+    }
+
+    fn save(
+        &mut self,
+        path: PathBuf,
+        write: impl FnOnce(&Path) -> Result<(), OutputError> + Send + 'static,
+        language: Language,
+    ) -> u64 {
+        let job = self.number();
+        let failed = move |why| JobResult::Saved(job, Err(why));
+        self.start_many(language, "save", failed, move |send| {
+            send(JobResult::Saved(job, save_message(&path, write(&path), language)));
+        });
+        job
     }
 
     /// Shows the system's file dialog. If there is none, the result is the same as after cancelling.
@@ -67,6 +80,7 @@ impl Jobs {
             if let Some(directory) = at.parent().filter(|directory| directory.is_dir()) {
                 dialog = dialog.set_directory(directory);
             }
+            // The dialogs take text only.
             let name = at.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let chosen = match purpose {
                 Purpose::Open => dialog.add_filter(scenes, &["ron", "anel"]).add_filter(all, &["*"]).pick_file(),
@@ -78,19 +92,14 @@ impl Jobs {
     }
 
     /// Traces thumbnails of these scenes, one after the other.
-    pub fn thumbnails(&self, scenes: Vec<String>, language: Language) {
-        self.start_many(
-            language,
-            "thumbnails",
-            |why| JobResult::Saved(Err(why)),
-            move |send| {
-                for scene in scenes {
-                    let picture =
-                        Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
-                    send(JobResult::Thumbnail(scene, picture));
-                }
-            },
-        );
+    pub fn thumbnails(&self, scenes: Vec<PathBuf>, language: Language) {
+        self.start_many(language, "thumbnails", JobResult::Failed, move |send| {
+            for scene in scenes {
+                let picture =
+                    Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
+                send(JobResult::Thumbnail(scene, picture));
+            }
+        });
     }
 
     /// Traces a pixel for the inspector.
@@ -104,22 +113,17 @@ impl Jobs {
         let Some(path) = path else { return };
         let (stop, stopped) = bounded(0);
         self.watch = Some(stop);
-        self.start_many(
-            language,
-            "watch",
-            |why| JobResult::Saved(Err(why)),
-            move |send| {
-                let mut last = stamp(&path);
-                while stopped.recv_timeout(WATCH_INTERVAL) == Err(RecvTimeoutError::Timeout) {
-                    let now = stamp(&path);
-                    if now != last {
-                        last = now;
-                        let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
-                        send(JobResult::FileChanged(path.clone(), change));
-                    }
+        self.start_many(language, "watch", JobResult::Failed, move |send| {
+            let mut last = stamp(&path);
+            while stopped.recv_timeout(WATCH_INTERVAL) == Err(RecvTimeoutError::Timeout) {
+                let now = stamp(&path);
+                if now != last {
+                    last = now;
+                    let change = if now.is_some() { FileChange::Written } else { FileChange::Gone };
+                    send(JobResult::FileChanged(path.clone(), change));
                 }
-            },
-        );
+            }
+        });
     }
 
     /// Returns a new job number.
@@ -130,7 +134,7 @@ impl Jobs {
 
     /// Starts a job that has one result.
     pub(super) fn start(&self, language: Language, name: &str, job: impl FnOnce() -> JobResult + Send + 'static) {
-        self.start_many(language, name, |why| JobResult::Saved(Err(why)), move |send| send(job()));
+        self.start_many(language, name, JobResult::Failed, move |send| send(job()));
     }
 
     /// Starts a job that sends several results. `failed` makes the result if its thread cannot be started.

@@ -19,6 +19,7 @@ mod stage;
 mod teaching;
 mod timing;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -75,10 +76,12 @@ pub struct Session {
     measurements: usize,
     notice: Option<Notice>,
     export_job: Option<ExportJob>,
+    /// By job: the name of the file that is being saved.
+    saving: BTreeMap<u64, String>,
     /// File for the records of each run (`--log`).
     log_path: Option<PathBuf>,
     /// Recently opened files, the latest first.
-    recent: Vec<String>,
+    recent: Vec<PathBuf>,
     /// Background colour of the picture.
     ground: Rgb,
     /// While the time is dragged: whether it was stopped before.
@@ -118,6 +121,7 @@ impl Session {
             measurements: 0,
             notice: None,
             export_job: None,
+            saving: BTreeMap::new(),
             log_path,
             recent: Vec::new(),
             ground,
@@ -168,15 +172,15 @@ impl Session {
                     self.loading = None;
                     match ready {
                         Ok(Ready::Scene(prepared)) => self.show_scene(prepared),
-                        Ok(Ready::Run(recorded)) => self.play(recorded),
+                        Ok(Ready::Run(recorded)) => self.open_recorded(recorded),
                         Ok(Ready::Lesson(lesson)) => others.push(JobResult::LessonOpened(lesson)),
                         Err(why) => self.report_unopened(why),
                     }
                 }
                 // Another file was opened meanwhile.
                 JobResult::Ready(..) => {}
-                JobResult::Saved(Ok(message)) => self.note(message),
-                JobResult::Saved(Err(why)) => self.trouble(why),
+                JobResult::Saved(job, result) => self.take_saved(job, result),
+                JobResult::Failed(why) => self.trouble(why),
                 JobResult::Progress(job, share) => self.take_progress(job, share),
                 JobResult::Exported(job, result) => self.take_exported(job, result),
                 JobResult::FileChanged(path, change) => self.file_changed(&path, change),

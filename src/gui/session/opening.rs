@@ -25,17 +25,17 @@ impl Opening {
     ///
     /// # Errors
     /// A sentence with the file's name, and the line and column of a mistake in it.
-    pub fn read(argument: &str) -> Result<Self, String> {
-        let path = Path::new(argument);
+    pub fn read(argument: impl AsRef<Path>) -> Result<Self, String> {
+        let path = argument.as_ref();
         if is_run_file(path) {
             let log = RunLog::load(path).map_err(|error| error.to_string())?;
             return Ok(Self::Run(Arc::new(log)));
         }
         if lesson::is_lesson_file(path) {
-            let lesson = Lesson::open(argument).map_err(|error| error.to_string())?;
+            let lesson = Lesson::open(path).map_err(|error| error.to_string())?;
             return Ok(Self::Lesson(Arc::new(lesson)));
         }
-        let opened = Opened::new(argument).map_err(|error| error.to_string())?;
+        let opened = Opened::new(path).map_err(|error| error.to_string())?;
         Ok(Self::Scene(Arc::new(opened)))
     }
 }

@@ -13,7 +13,7 @@ use crate::runlog::{Driver, Header, RunLog};
 use crate::time::Time;
 use crate::view::{
     Canvas, Details, Lanes, Layer, Markers, Narrator, Playback, RATES, RunState, RunView, Snapshot, SnapshotCache,
-    StepUnit, Subject, Summary, step,
+    StepUnit, Subject, Summary, TimeScale, step,
 };
 
 /// A run with its records, its picture and the shown time.
@@ -221,12 +221,21 @@ impl Stage {
         self.view.latest.state.finished().or(end).unwrap_or_else(|| self.clock())
     }
 
-    /// Returns the precision of times in texts, as a playback rate: the shorter the run and the slower its playback,
-    /// the more decimals.
-    pub fn grain(&self) -> f64 {
-        // The precision does not change while the run gets longer.
-        let by_length = if self.phase == Phase::Running { 1.0 } else { self.length().secs() / 2.0 };
-        self.time.rate().min(by_length).clamp(1e-9, 1.0)
+    /// Returns unit and precision of the run's times.
+    pub fn time_scale(&self) -> TimeScale {
+        /// How long, on the clock of whoever looks on, a run takes at least.
+        const LEAST_RUN_S: f64 = 10.0;
+        let mut length = self.length();
+        if self.phase == Phase::Running {
+            // The unit does not change while the run gets longer.
+            length = length.max(Time::from_secs(LEAST_RUN_S * self.time.rate().min(1.0)));
+        }
+        TimeScale::of_length(length)
+    }
+
+    /// Returns the same scale, precise enough to follow the run at its playback rate.
+    pub fn playback_scale(&self) -> TimeScale {
+        self.time_scale().at_rate(self.time.rate())
     }
 
     /// Whether the shown time advances.

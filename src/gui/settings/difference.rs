@@ -35,10 +35,10 @@ impl Settings {
         add(scheduler == sharing_before && part != before.part, part_text);
         add(scheduler == sharing_before && self.remedies != before.remedies, remedies_words(self.remedies, language));
         add(self.pace != before.pace, self.pace.text(language));
-        let (latency, handling) = (self.latency, self.handling);
-        add(latency != before.latency, say!(language, "{latency} ms a hop", "{latency} ms por salto"));
+        let [latency, handling] = [self.latency, self.handling].map(|ms| comma(language, ms.to_string()));
+        add(self.latency != before.latency, say!(language, "{latency} ms a hop", "{latency} ms por salto"));
         add(
-            handling != before.handling,
+            self.handling != before.handling,
             say!(language, "the parent takes {handling} ms for a message", "o pai leva {handling} ms por mensagem"),
         );
         let bandwidth = match self.bandwidth {

@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use super::Settings;
 use super::pace::Pace;
+use super::{Settings, milliseconds};
 use crate::balance::{NodeId, Rules, Scheduler, Strategy};
 use crate::driver::auto_pace;
 use crate::runlog::{Driver, Header, LinkSettings, Metadata};
@@ -12,7 +12,7 @@ impl Settings {
     /// Returns the header of a run with these settings. `name` and `text` are the scene's; `work` is the time of the
     /// whole picture on the reference machine at full pace; `cores` is the number of this computer's cores.
     pub fn header(&self, name: &str, text: &str, work: Duration, cores: usize) -> Header {
-        let handling = Duration::from_millis(self.handling.into());
+        let handling = milliseconds(self.handling);
         let speeds: Vec<f64> = self.all_speeds().collect();
         Header {
             scene: name.to_owned(),
@@ -46,7 +46,8 @@ impl Settings {
     /// Returns settings for a run like that of this header; `pace` is used if its pace was not full. The window does
     /// not offer two threads a node, so these become one.
     pub fn of(header: &Header, pace: Pace) -> Self {
-        let millis = |time: Duration| u32::try_from(time.as_millis()).unwrap_or(u32::MAX);
+        // To the nanosecond, the unit of the header.
+        let millis = |time: Duration| (time.as_secs_f64() * 1e9).round() / 1e6;
         let own = header.speeds.len().saturating_sub(header.spares.into());
         let (speeds, spares) = header.speeds.split_at(own);
         Self {

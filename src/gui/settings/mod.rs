@@ -47,9 +47,9 @@ pub struct Settings {
     /// Seed of random speeds.
     pub seed: u32,
     /// Travel time of a message in milliseconds, at most [`Settings::MAX_LATENCY_MS`].
-    pub latency: u32,
+    pub latency: f64,
     /// Time that the parent takes for each message in milliseconds, at most [`Settings::MAX_HANDLING_MS`].
-    pub handling: u32,
+    pub handling: f64,
     /// Bandwidth of a link in kB/s, at most [`Settings::MAX_BANDWIDTH_KB_S`]; 0 is unlimited.
     pub bandwidth: u32,
     /// Whether all machines share one wire; else each pair has its own.
@@ -64,9 +64,9 @@ impl Settings {
     /// Most samples n of n × n a pixel; more make no visible difference.
     pub const MAX_SAMPLES: u32 = 8;
     /// Longest travel time of a message, in milliseconds.
-    pub const MAX_LATENCY_MS: u32 = 2000;
+    pub const MAX_LATENCY_MS: f64 = 2000.0;
     /// Longest time of the parent for a message, in milliseconds.
-    pub const MAX_HANDLING_MS: u32 = 1000;
+    pub const MAX_HANDLING_MS: f64 = 1000.0;
     /// Highest limit of a link, in kB/s: 1 Gbit/s, which acts like no limit.
     pub const MAX_BANDWIDTH_KB_S: u32 = 125_000;
     /// Longest side of the picture, in pixels.
@@ -74,7 +74,7 @@ impl Settings {
     /// Most atoms of a run; the window keeps all records in memory.
     pub const MAX_ATOMS: u32 = 1 << 18;
     /// Longest run that can be set, in seconds.
-    pub const MAX_RUN_S: u32 = 600;
+    pub const MAX_RUN_S: f64 = 600.0;
 
     /// Returns the division of the picture into atoms.
     pub fn division(&self) -> Division {
@@ -86,7 +86,7 @@ impl Settings {
     /// # Errors
     /// A sentence with the wrong setting and its possible values.
     pub fn check(&self, language: Language) -> Result<(), String> {
-        let within = |name: &str, value: u32, min: u32, max: u32| {
+        let within_reals = |name: &str, value: f64, min: f64, max: f64| {
             if (min..=max).contains(&value) {
                 return Ok(());
             }
@@ -96,6 +96,8 @@ impl Settings {
                 "{name}: escolha um valor de {min} a {max} em vez de {value}"
             ))
         };
+        let within =
+            |name: &str, value: u32, min: u32, max: u32| within_reals(name, value.into(), min.into(), max.into());
         Size::new(self.size.width(), self.size.height())?;
         within(word!(language, "Width", "Largura"), self.size.width(), 16, Self::MAX_SIDE_PX)?;
         within(word!(language, "Height", "Altura"), self.size.height(), 16, Self::MAX_SIDE_PX)?;
@@ -112,13 +114,14 @@ impl Settings {
         within(spares, self.spares.len() as u32, 0, Self::MAX_SPARES as u32)?;
         within(word!(language, "Pixels in an atom", "Pixels num átomo"), self.atom, 1, self.size.pixels())?;
         within(word!(language, "Atoms in a part", "Átomos numa parte"), self.part, 1, Self::MAX_ATOMS)?;
-        within(word!(language, "Latency in ms", "Latência em ms"), self.latency, 0, Self::MAX_LATENCY_MS)?;
+        within_reals(word!(language, "Latency in ms", "Latência em ms"), self.latency, 0.0, Self::MAX_LATENCY_MS)?;
         let handling = word!(language, "Parent's time for a message in ms", "Tempo do pai por mensagem em ms");
-        within(handling, self.handling, 0, Self::MAX_HANDLING_MS)?;
+        within_reals(handling, self.handling, 0.0, Self::MAX_HANDLING_MS)?;
         let bandwidth = word!(language, "Bandwidth of a link in kB/s", "Banda de um enlace em kB/s");
         within(bandwidth, self.bandwidth, 0, Self::MAX_BANDWIDTH_KB_S)?;
         if let Pace::Lasts(seconds) = self.pace {
-            within(word!(language, "Seconds of the run", "Segundos da execução"), seconds, 1, Self::MAX_RUN_S)?;
+            let name = word!(language, "Seconds of the run", "Segundos da execução");
+            within_reals(name, seconds, 1.0, Self::MAX_RUN_S)?;
         }
         if !self.all_speeds().all(|speed| (0.0..=1.0).contains(&speed)) {
             return Err(word!(
@@ -149,7 +152,7 @@ impl Settings {
             let mut fixed = settings.clone();
             fixed.speeds = vec![0.0; settings.speeds.len()];
             fixed.spares = vec![0.0; settings.spares.len()];
-            (fixed.latency, fixed.seed) = (0, 0);
+            (fixed.latency, fixed.seed) = (0.0, 0);
             fixed
         };
         fixed(self) != fixed(other)
@@ -216,8 +219,14 @@ impl Settings {
 
     /// Returns the travel time of a message.
     pub fn latency_time(&self) -> Duration {
-        Duration::from_millis(self.latency.into())
+        milliseconds(self.latency)
     }
+}
+
+/// Returns the length of time of a setting in milliseconds.
+fn milliseconds(ms: f64) -> Duration {
+    // A stored setting may be no number; it is checked, but not before this.
+    Duration::try_from_secs_f64(ms / 1e3).unwrap_or_default()
 }
 
 impl Default for Settings {
@@ -232,13 +241,13 @@ impl Default for Settings {
             driver: Driver::Threads,
             strategy: Strategy::Ring,
             part: 1,
-            pace: Pace::Lasts(20),
+            pace: Pace::Lasts(20.0),
             speeds: vec![1.0; 8],
             spares: Vec::new(),
             remedies: Remedies::ALL,
             seed: 1,
-            latency: 40,
-            handling: 0,
+            latency: 40.0,
+            handling: 0.0,
             bandwidth: 0,
             shared_wire: false,
         };
@@ -261,7 +270,7 @@ mod tests {
     #[test]
     fn speeds_and_latency_need_no_restart_and_the_rest_does() {
         let default = Settings::default();
-        let at_once: [fn(&mut Settings); 3] = [|s| s.speeds[3] = 0.2, |s| s.latency = 7, |s| s.seed = 9];
+        let at_once: [fn(&mut Settings); 3] = [|s| s.speeds[3] = 0.2, |s| s.latency = 7.5, |s| s.seed = 9];
         for change in at_once {
             assert!(!with(change).needs_restart(&default));
         }
@@ -271,7 +280,7 @@ mod tests {
             |s| s.pace = Pace::Full,
             |s| s.part = 9,
             |s| s.driver = Driver::Sim,
-            |s| s.handling = 20,
+            |s| s.handling = 2.5,
             |s| s.bandwidth = 100,
             |s| s.shared_wire = true,
         ];
@@ -288,7 +297,7 @@ mod tests {
         assert_eq!(complaint(|s| s.speeds.clear()), "Number of machines: choose a value from 1 to 32 instead of 0");
         assert_eq!(complaint(|s| s.speeds = vec![f64::NAN]), "Speed: choose a value from 0 to 100 %");
         assert!(complaint(|s| s.atom = 1).contains("307200 atoms; the window shows up to 262144"));
-        assert!(complaint(|s| s.pace = Pace::Lasts(0)).starts_with("Seconds of the run"));
+        assert!(complaint(|s| s.pace = Pace::Lasts(0.0)).starts_with("Seconds of the run"));
     }
 
     #[test]
@@ -298,14 +307,14 @@ mod tests {
         assert_eq!(told(|_| {}), "");
         assert_eq!(told(|s| s.speeds[2] = 0.3), "machine 3 at 30 %");
         assert_eq!(told(|s| s.set_preset(SpeedPreset::Random)), "new speeds for 8 machines");
-        assert_eq!(told(|s| (s.latency, s.atom) = (200, 10)), "atoms of 10 pixels, 200 ms a hop");
+        assert_eq!(told(|s| (s.latency, s.atom) = (12.5, 10)), "atoms of 10 pixels, 12.5 ms a hop");
         assert_eq!(told(|s| s.set_nodes(1)), "1 machine");
         let farm = Scheduler::Protocol(Strategy::Farm);
         assert_eq!(with(|s| s.set_scheduler(farm)).difference(&Settings::default(), language), "farm");
         assert_eq!(told(|s| s.set_scheduler(Scheduler::WorkStealing)), "work stealing (rayon)");
         assert_eq!(told(|s| (s.driver, s.part) = (Driver::Sim, 5)), "virtual time, at least 5 atoms in a transfer");
         assert_eq!(
-            told(|s| (s.handling, s.bandwidth, s.shared_wire) = (20, 100, true)),
+            told(|s| (s.handling, s.bandwidth, s.shared_wire) = (20.0, 100, true)),
             "the parent takes 20 ms for a message, links of 100 kB/s, one wire for all machines"
         );
     }
@@ -346,22 +355,25 @@ mod tests {
     fn header_keeps_the_settings() {
         let settings = with(|s| {
             s.set_scheduler(Scheduler::Protocol(Strategy::FarmBySpeed));
-            (s.driver, s.handling, s.bandwidth, s.shared_wire, s.part) = (Driver::Sim, 20, 100, true, 7);
+            (s.driver, s.handling, s.bandwidth, s.shared_wire, s.part) = (Driver::Sim, 20.0, 100, true, 7);
         });
         let header = settings.header("", "", Duration::from_millis(300), 2);
         assert_eq!((header.cores, header.link.bandwidth), (8, Some(1e5)));
         assert_eq!(header.rules.batch, Some(Duration::from_millis(320)));
         assert_eq!(Settings::of(&header, settings.pace), settings);
-        assert_eq!(with(|s| s.pace = Pace::Lasts(5)).header("", "", Duration::ZERO, 2).rules.batch, Some(Rules::BATCH));
+        assert_eq!(
+            with(|s| s.pace = Pace::Lasts(5.0)).header("", "", Duration::ZERO, 2).rules.batch,
+            Some(Rules::BATCH)
+        );
     }
 
     #[test]
     fn pace_makes_the_run_last_the_set_seconds() {
         let work = Duration::from_millis(300);
-        for seconds in [10, 20, 60] {
+        for seconds in [10.0, 20.0, 60.0] {
             let pace = with(|s| s.pace = Pace::Lasts(seconds)).pace_fraction(work, 2);
             let lasts = work.as_secs_f64() / (pace * 7.1);
-            assert!((lasts / f64::from(seconds) - 0.85).abs() < 0.01, "{lasts}");
+            assert!((lasts / seconds - 0.85).abs() < 0.01, "{lasts}");
         }
         assert_eq!(with(|s| s.pace = Pace::Full).pace_fraction(work, 2), 1.0);
         let slow = with(|s| s.speeds = vec![0.0; 2]).pace_fraction(work, 2);

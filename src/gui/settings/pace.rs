@@ -4,13 +4,13 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::language::{Language, say, word};
+use crate::language::{Language, comma, say, word};
 
 /// Emulated speed of the reference machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Pace {
     /// Slowed down so that the run lasts about this many seconds.
-    Lasts(u32),
+    Lasts(f64),
     /// As fast as this computer: a machine at 100 % never waits.
     Full,
 }
@@ -20,6 +20,7 @@ impl Pace {
     pub fn text(self, language: Language) -> String {
         match self {
             Self::Lasts(seconds) => {
+                let seconds = comma(language, seconds.to_string());
                 say!(language, "a run of about {seconds} s", "uma execução de cerca de {seconds} s")
             }
             Self::Full => word!(language, "full speed", "velocidade total").into(),
@@ -37,7 +38,7 @@ impl Pace {
             Self::Full => 1.0,
             // On a computer that is too slow the run lasts longer. The pace must stay above 0.
             Self::Lasts(seconds) => {
-                let wanted = work.as_secs_f64() / (BUSY_SHARE * f64::from(seconds) * speed_sum.max(1e-3));
+                let wanted = work.as_secs_f64() / (BUSY_SHARE * seconds * speed_sum.max(1e-3));
                 wanted.min(max).clamp(1e-6, 0.999)
             }
         }

@@ -75,7 +75,7 @@ mod tests {
     use super::*;
 
     fn with_latency(latency: u32) -> Settings {
-        Settings { latency, ..Settings::default() }
+        Settings { latency: latency.into(), ..Settings::default() }
     }
 
     #[test]
@@ -90,7 +90,7 @@ mod tests {
         history.push(with_latency(7), Gesture::Once);
         let now = with_latency(8);
         let undone: Vec<_> = std::iter::from_fn(|| history.undo(&now)).map(|settings| settings.latency).collect();
-        assert_eq!(undone, [7, 6, 5, 0]);
+        assert_eq!(undone, [7.0, 6.0, 5.0, 0.0]);
         assert!(!history.can_undo() && history.can_redo());
     }
 

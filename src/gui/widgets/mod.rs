@@ -2,12 +2,14 @@
 
 pub mod canvas_texture;
 pub mod icons;
+pub mod number;
 pub mod paint;
 pub mod path_input;
 pub mod picture_view;
 pub mod test_positions;
 pub mod theme;
 
+use std::cell::Cell;
 use std::ops::RangeInclusive;
 
 use egui::{
@@ -17,6 +19,7 @@ use egui::{
 
 use crate::language::{Language, word};
 use icons::Icon;
+use number::{NumberError, RefusedNumber};
 use theme::{GRID, Look};
 
 /// Gives a painted view an accessible name and a text of its content for screen readers.
@@ -152,14 +155,15 @@ pub fn slider(
     .inner
 }
 
-/// Shows a number field, to type or to drag. `name` is its accessible name.
+/// Shows a number field, to type or to drag. A text that is no number is refused as a whole: the value stays, the field
+/// gets a red frame, and [`RefusedNumber`] says why. `name` is its accessible name.
 pub fn number_field<N: egui::emath::Numeric>(
     ui: &mut Ui,
     value: &mut N,
     range: RangeInclusive<N>,
     suffix: &str,
     width: f32,
-    name: &str,
+    (name, language): (&str, Language),
 ) -> Response {
     ui.scope(|ui| {
         // A low row has small text.
@@ -170,7 +174,17 @@ pub fn number_field<N: egui::emath::Numeric>(
             ui.style_mut().override_font_id = Some(theme::regular(theme::SMALL));
         }
         let speed = (range.end().to_f64() - range.start().to_f64()).clamp(10.0, 2000.0) / 400.0;
-        let response = ui.add(DragValue::new(value).range(range).suffix(suffix).max_decimals(0).speed(speed));
+        let refused = Cell::new(None);
+        let parse = |text: &str| {
+            number::parse(text, suffix, N::INTEGRAL, language)
+                .map_err(|why| refused.set(Some((text.trim().to_owned(), why))))
+                .ok()
+        };
+        // With every key, the beginning of a longer number would count.
+        let field = DragValue::new(value).range(range).suffix(suffix).max_decimals(0).speed(speed);
+        let field = field.update_while_editing(false).custom_parser(parse);
+        let response = ui.add(field.custom_formatter(|number, _| number::format(number, language)));
+        show_refusal(ui, &response, refused.take(), name);
         let exact = value.to_f64();
         response.widget_info(|| WidgetInfo {
             label: Some(name.to_owned()),
@@ -179,6 +193,24 @@ pub fn number_field<N: egui::emath::Numeric>(
         response
     })
     .inner
+}
+
+/// Reports a refused text, and frames the field until it is edited again.
+fn show_refusal(ui: &Ui, response: &Response, refused: Option<(String, NumberError)>, name: &str) {
+    let id = response.id.with("refused");
+    match refused {
+        // Without a text the user has left the field as it was.
+        Some((text, why)) if !text.is_empty() => {
+            ui.data_mut(|data| data.insert_temp(id, true));
+            RefusedNumber { field: name.to_owned(), text, why }.report(ui.ctx());
+        }
+        _ if response.has_focus() || response.dragged() => ui.data_mut(|data| data.remove::<bool>(id)),
+        _ => {}
+    }
+    if ui.data(|data| data.get_temp::<bool>(id)).unwrap_or(false) {
+        let stroke = Stroke::new(1.5, Look::of(ui.ctx()).trouble);
+        ui.painter().rect_stroke(response.rect, 4.0, stroke, StrokeKind::Outside);
+    }
 }
 
 /// Shows the content of a menu for a machine or a message: a title, a button for each action, and a hint. The buttons

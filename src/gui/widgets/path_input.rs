@@ -9,6 +9,56 @@ use egui::{Key, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 use super::theme::{GRID, Look};
 use crate::language::{Language, say, word};
 
+/// A path as text, to be typed. A path that is not UTF-8 is shown with replacement characters; as long as its text or
+/// that of its directory is unchanged, it keeps its meaning.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TypedPath {
+    text: String,
+    /// The path of which the text was made last.
+    path: PathBuf,
+}
+
+impl TypedPath {
+    /// Replaces the text by this path.
+    pub fn set(&mut self, path: PathBuf) {
+        self.text = path.display().to_string();
+        self.path = path;
+    }
+
+    /// Returns the text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Returns the text, to be changed.
+    pub fn text_mut(&mut self) -> &mut String {
+        &mut self.text
+    }
+
+    /// Changes the extension.
+    pub fn set_extension(&mut self, extension: &str) {
+        self.set(self.meaning().with_extension(extension));
+    }
+
+    /// Returns the path of the file; a leading `~` is the home directory.
+    ///
+    /// # Errors
+    /// A sentence, if the text is empty, names a directory, or the home directory is unknown.
+    pub fn resolve(&self, home: Option<PathBuf>, language: Language) -> Result<PathBuf, String> {
+        let path = resolve(&self.text, home, language)?;
+        let meaning = self.meaning();
+        Ok(if meaning.to_str().is_some() { path } else { meaning })
+    }
+
+    /// Returns the path with the real names of the directories whose text is unchanged.
+    fn meaning(&self) -> PathBuf {
+        let typed = Path::new(self.text.trim());
+        let unchanged = |real: &Path| Some(real.join(typed.strip_prefix(real.to_string_lossy().as_ref()).ok()?));
+        let without_end = |path: &Path| path.components().collect::<PathBuf>();
+        self.path.ancestors().find_map(unchanged).map_or_else(|| typed.to_owned(), |path| without_end(&path))
+    }
+}
+
 /// Response of a text field.
 pub struct TextFieldResponse {
     /// The text changed.
@@ -58,7 +108,7 @@ fn stem_range(path: &str) -> [usize; 2] {
 ///
 /// # Errors
 /// A sentence, if the text is empty, names a directory, or the home directory is unknown.
-pub fn resolve(typed: &str, home: Option<PathBuf>, language: Language) -> Result<PathBuf, String> {
+fn resolve(typed: &str, home: Option<PathBuf>, language: Language) -> Result<PathBuf, String> {
     let typed = typed.trim();
     if typed.is_empty() {
         return Err(word!(
@@ -113,6 +163,24 @@ mod tests {
         assert_eq!(stem("picture"), "picture");
         assert_eq!(stem("/tmp/.hidden"), ".hidden");
         assert_eq!((stem("/tmp/"), stem("")), (String::new(), String::new()));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn path_that_is_not_utf_8_keeps_its_bytes() {
+        use std::ffi::OsStr;
+        use std::os::unix::ffi::OsStrExt;
+        let path = |bytes: &[u8]| PathBuf::from(OsStr::from_bytes(bytes));
+        let mut typed = TypedPath::default();
+        let resolved = |typed: &TypedPath| typed.resolve(None, Language::English);
+        typed.set(path(b"/tmp/caf\xe9/x.png"));
+        assert_eq!(resolved(&typed), Ok(path(b"/tmp/caf\xe9/x.png")));
+        *typed.text_mut() = typed.text().replace("x.png", "inner/y.svg");
+        assert_eq!(resolved(&typed), Ok(path(b"/tmp/caf\xe9/inner/y.svg")));
+        typed.set_extension("gif");
+        assert_eq!(resolved(&typed), Ok(path(b"/tmp/caf\xe9/inner/y.gif")));
+        *typed.text_mut() = "/other/z.png".into();
+        assert_eq!(resolved(&typed), Ok(path(b"/other/z.png")));
     }
 
     #[test]

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use egui::epaint::text::{FontTweak, VariationCoords};
+use egui::epaint::text::{FallbackRequest, FontInsert, FontTweak, VariationCoords};
 use egui::style::{HandleShape, ScrollStyle, WidgetVisuals, Widgets};
 use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Theme, Visuals};
 
-use crate::font::PLEX;
+use crate::font::{PLEX, SystemFont, system_font};
 use crate::palette::{self, Rgb};
 
 /// Unit of all distances, in points.
@@ -116,6 +116,7 @@ impl Look {
 /// Installs the fonts and both themes.
 pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(fonts());
+    ctx.add_font_provider(Arc::new(font_of_the_system));
     for (theme, look) in [(Theme::Dark, DARK), (Theme::Light, LIGHT)] {
         ctx.style_mut_of(theme, |style| {
             style.visuals = visuals(theme, look);
@@ -160,6 +161,14 @@ pub fn rgb(colour: Color32) -> Rgb {
 }
 
 const STRONG: &str = "strong";
+
+/// Finds a font of the computer for a letter that the program's own fonts lack, as in a title in another script.
+fn font_of_the_system(request: &FallbackRequest<'_>) -> Option<FontInsert> {
+    let letter = request.cluster.chars().next()?;
+    let SystemFont { data, index } = system_font(letter)?;
+    let name = format!("system: {letter}");
+    Some(FontInsert { name, data: FontData::from_blob(Arc::new(data), index), families: Vec::new() })
+}
 
 /// Returns IBM Plex Sans in two weights of one variable font, with egui's fonts for missing glyphs.
 fn fonts() -> FontDefinitions {

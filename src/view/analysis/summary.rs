@@ -6,10 +6,11 @@ use std::time::Duration;
 use crate::balance::{NodeId, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::runlog::{Metrics, RunLog};
+use crate::time::Time;
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
-use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name, seconds_words};
+use crate::view::text::format::{TimeScale, atoms_words, count, counted, duration, fraction, node_name, time_words};
 
 /// Result of a finished run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,17 +38,17 @@ impl Summary {
 /// Returns the figures of the result with their captions.
 pub fn summary_figures(summary: &Summary, language: Language) -> [(String, &'static str); 4] {
     [
-        (seconds(summary.makespan, language), word!(language, "start to finish", "início ao fim")),
-        (seconds(summary.ideal, language), word!(language, "shared perfectly", "divisão perfeita")),
+        (duration(summary.makespan, language), word!(language, "start to finish", "início ao fim")),
+        (duration(summary.ideal, language), word!(language, "shared perfectly", "divisão perfeita")),
         (fraction(summary.efficiency), word!(language, "efficiency", "eficiência")),
-        (seconds(summary.spread, language), word!(language, "first to last done", "da 1ª à última")),
+        (beside(summary.makespan, summary.spread, language), word!(language, "first to last done", "da 1ª à última")),
     ]
 }
 
 /// Says how well the work was shared, which machines did most and least of it, and why.
 pub fn result_words(state: &RunState, summary: &Summary, language: Language) -> String {
-    let [takes, ideal, spread] =
-        [summary.makespan, summary.ideal, summary.spread].map(|length| seconds(length, language));
+    let [takes, ideal] = [summary.makespan, summary.ideal].map(|length| duration(length, language));
+    let spread = beside(summary.makespan, summary.spread, language);
     let efficiency = fraction(summary.efficiency);
     let mut words = say!(
         language,
@@ -76,13 +77,15 @@ pub fn result_words(state: &RunState, summary: &Summary, language: Language) -> 
     words
 }
 
-/// Writes a length in seconds with a decimal, or in a smaller unit if it is shorter than 0.1 s.
-fn seconds(length: Duration, language: Language) -> String {
-    if length < Duration::from_millis(95) {
-        duration(length, language)
-    } else {
-        seconds_words(length.as_secs_f64(), language)
+/// Writes a length of time beside that of its run: in the same unit, unless it is too short for that.
+fn beside(makespan: Duration, length: Duration, language: Language) -> String {
+    if length < makespan.min(Duration::from_secs(1)).mul_f64(0.095) {
+        return duration(length, language);
     }
+    let scale = TimeScale::of_length(Time::ZERO + makespan);
+    // A run of seconds has one decimal.
+    let scale = if makespan >= Duration::from_secs(1) { scale.with_decimals(1) } else { scale };
+    time_words(Time::ZERO + length, scale, language)
 }
 
 /// Says which machines did most and least of the work, and why, or which machine all others waited for. `None` if all
@@ -119,7 +122,8 @@ fn waited_for(state: &RunState, language: Language) -> Option<String> {
     let is_long = waited.as_secs_f64() > 0.05 * end;
     let slow = state.nodes().get(usize::from(last)).map(|node| at_speed(state, node, language)).unwrap_or_default();
     is_long.then(|| {
-        let (last, first, waited) = (node_name(last), node_name(first), seconds(waited, language));
+        let (last, first, waited) =
+            (node_name(last), node_name(first), beside(Duration::from_secs_f64(end), waited, language));
         say!(
             language,
             "All waited for {last}, {slow}: {first} was done {waited} before it, and no machine took over atoms",

@@ -78,24 +78,25 @@ pub fn time_budget_words(runs: &[(&str, &TimeBudget)], language: Language) -> St
     runs.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Draws the legend, without parts that no run has.
+/// Draws the legend, without parts that no run has. Where it is too long for one line, its names are smaller.
 fn legend(runs: &[(&str, &TimeBudget)], width: f32, marks: &mut Vec<Mark>, language: Language) {
+    let is_drawn = |part: usize| runs.iter().any(|(_, budget)| budget.spent.parts()[part] > 0.0);
+    let parts = part_names(language).into_iter().zip(inks()).enumerate().filter(|(part, _)| is_drawn(*part));
+    let parts: Vec<_> = parts.map(|(_, part)| part).collect();
+    let needed = |name: &str, scale: f32| 18.0 + TextSize::Small(scale).width(name.chars().count()) + 10.0;
+    let whole: f32 = parts.iter().map(|(name, _)| needed(name, 1.0)).sum();
+    let scale = (width / whole.max(1.0)).min(1.0);
     let mut left = 0.0;
-    for (i, (name, ink)) in part_names(language).into_iter().zip(inks()).enumerate() {
-        let share = |budget: &TimeBudget| budget.spent.parts()[i] / budget.spent.sum().max(f64::MIN_POSITIVE);
-        let needed = 18.0 + TextSize::Small(1.0).width(name.chars().count()) + 10.0;
-        if runs.iter().all(|(_, budget)| share(budget) < 0.005) || left + needed > width + 20.0 {
-            continue;
-        }
+    for (name, ink) in parts {
         marks.push(Mark::Box { centre: [left + 6.0, 9.0], half: [6.0; 2], round: 2.0, ink });
         marks.push(Mark::Label {
             at: [left + 18.0, 9.0],
             anchor: Anchor::Left,
             text: name.to_owned(),
-            size: TextSize::Small(1.0),
+            size: TextSize::Small(scale),
             ink: Hue::Quiet.full(),
         });
-        left += needed;
+        left += needed(name, scale);
     }
 }
 

@@ -14,7 +14,7 @@ use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::lane::Traced;
 use crate::view::state::lanes::Lanes;
 use crate::view::state::run_state::RunState;
-use crate::view::text::format::{count, duration, node_name, time_words};
+use crate::view::text::format::{TimeScale, count, duration, node_name, time_words};
 use crate::view::text::tooltips::{Fact, atom_words, flight_words, node_facts};
 use crate::view::timeline::landmarks::Subject;
 
@@ -106,8 +106,8 @@ impl Details {
         }
     }
 
-    /// Returns a title and a line of details at `now`. Times have the precision of [`time_words`] at the rate `grain`.
-    pub fn words(&self, state: &RunState, now: Time, grain: f64, language: Language) -> (String, String) {
+    /// Returns a title and a line of details at `now`. Times have two decimals more than `scale`.
+    pub fn words(&self, state: &RunState, now: Time, scale: TimeScale, language: Language) -> (String, String) {
         match self.subject {
             Subject::Node(node) => {
                 let facts = node_facts(state, node, now, language);
@@ -140,7 +140,7 @@ impl Details {
                 );
                 let traced = self.bar.map(|(node, bar)| {
                     let (name, took) = (node_name(node), duration(bar.to.since(bar.from), language));
-                    let [from, to] = [bar.from, bar.to].map(|time| time_words(time, grain * 0.01, language));
+                    let [from, to] = [bar.from, bar.to].map(|time| time_words(time, scale.finer(2), language));
                     let traces = if bar.to <= now {
                         word!(language, "traced", "o calculou")
                     } else {
@@ -162,7 +162,7 @@ impl Details {
                 }
                 Some(flight) => {
                     let [sent, arrives] =
-                        [flight.sent, flight.arrives].map(|time| time_words(time, grain * 0.01, language));
+                        [flight.sent, flight.arrives].map(|time| time_words(time, scale.finer(2), language));
                     let took = duration(flight.arrives.since(flight.sent), language);
                     let why = self.why.as_ref().map(|why| format!("{why} · ")).unwrap_or_default();
                     let arrived = if flight.arrives <= now {
@@ -199,7 +199,8 @@ mod tests {
         let mut cache = SnapshotCache::default();
         let details = Details::of(biggest.subject, &log, &lanes, &mut cache, language);
         let highlight = details.highlight(&snapshot.state);
-        let (title, more) = details.words(&snapshot.state, snapshot.state.head(), 1.0, language);
+        let (title, more) =
+            details.words(&snapshot.state, snapshot.state.head(), TimeScale::of_length(log.end()), language);
         let atoms: usize = highlight.atoms.iter().map(Range::len).sum();
         assert!(highlight.nodes.len() == 2 && title.starts_with(&format!("{atoms} atoms from ")), "{title}");
         assert!(

@@ -55,7 +55,7 @@ pub(crate) fn draw(
         }
         _ => {}
     }
-    let has_pipe = layout.node_radius >= MIN_PIPE_RADIUS_PX && !activity.is_out() && activity != Activity::Done;
+    let has_pipe = shows_pipe(layout, activity);
     let raised = if has_pipe { 0.2 * radius } else { 0.0 };
     number(layout, node, [centre[0], centre[1] - raised], radius, hue, marks);
     if has_pipe {
@@ -67,6 +67,12 @@ pub(crate) fn draw(
     if is_selected {
         selection(layout, centre, marks);
     }
+}
+
+/// Whether the pipe of a machine is drawn.
+pub(crate) fn shows_pipe(layout: &RingLayout, activity: Activity) -> bool {
+    let is_there = !activity.is_out() && !matches!(activity, Activity::Done | Activity::Spare);
+    layout.node_radius >= MIN_PIPE_RADIUS_PX && is_there
 }
 
 /// Draws the seat of a spare machine: its number within a dashed outline.

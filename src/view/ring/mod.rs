@@ -12,6 +12,7 @@ mod label_text;
 pub(crate) mod labels;
 mod layers;
 pub(crate) mod layout;
+pub(crate) mod legend;
 mod lost_messages;
 mod machine;
 mod messages;
@@ -54,6 +55,11 @@ pub enum RingSpot {
 
 /// Draws the ring at `now`.
 pub fn ring(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: Time, language: Language) -> Vec<Mark> {
+    draw(layout, state, overlay, now, language).joined()
+}
+
+/// Draws the layers of the ring at `now`.
+fn draw(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: Time, language: Language) -> RingMarks {
     let mut marks = RingMarks::default();
     let tracks = marks.layer(RingLayer::Tracks);
     if state.scheduler.is_ring() {
@@ -79,7 +85,7 @@ pub fn ring(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: T
     messages::draw(layout, state, now, overlay.message, &mut marks);
     farm_messages::draw(layout, state, now, &mut marks);
     lost_messages::draw(layout, state, now, &mut marks);
-    marks.joined()
+    marks
 }
 
 /// Finds the part of the ring at `point`.

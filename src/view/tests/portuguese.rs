@@ -28,7 +28,7 @@ use crate::view::ring::labels;
 use crate::view::ring::layout::RingLayout;
 use crate::view::ring::{RingOverlay, ring};
 use crate::view::state::node_state::Activity;
-use crate::view::text::format::activity_word;
+use crate::view::text::format::{TimeScale, activity_word};
 use crate::view::text::quality::{measured_lines, quality_words, times_words};
 use crate::view::text::scene_stats::{needs_lines, needs_warnings};
 use crate::view::text::tooltips::{atom_words, drawing_notes, flight_words, node_words, parent_words};
@@ -247,8 +247,9 @@ fn sentences_after_it(log: &RunLog, language: Language) -> Said {
     let subjects =
         found.iter().map(|mark| mark.subject).chain([Subject::Node(0), Subject::Atom(3), Subject::Message(u64::MAX)]);
     for subject in subjects.collect::<Vec<_>>() {
+        let scale = TimeScale::of_length(log.end());
         let (title, more) =
-            Details::of(subject, log, &lanes, &mut cache, language).words(state, state.head(), 1.0, language);
+            Details::of(subject, log, &lanes, &mut cache, language).words(state, state.head(), scale, language);
         said.extend([(Room::Some, title), (Room::Some, more)]);
     }
     said.extend(found.into_iter().map(|mark| (Room::Same, mark.words)));

@@ -42,9 +42,9 @@ pub fn percent(part: u32, whole: u32) -> String {
     format!("{} %", if part < whole { rounded.min(99) } else { rounded })
 }
 
-/// Writes a fraction, 0 to 1, in whole per cent: `63 %`.
+/// Writes a fraction, 0 to 1, in whole per cent: `63 %`. Only nothing is `0 %`.
 pub fn fraction(part: f64) -> String {
-    format!("{:.0} %", part * 100.0)
+    if 0.0 < part && part < 0.005 { "< 1 %".into() } else { format!("{:.0} %", part * 100.0) }
 }
 
 /// Writes a fraction in per cent with two digits at least: `88 %`, `2.1 %`, `0.03 %`.
@@ -128,41 +128,104 @@ pub fn bytes_words(bytes: u64, language: Language) -> String {
     }
 }
 
-/// Writes seconds with a decimal: `20.4 s`.
-pub fn seconds_words(seconds: f64, language: Language) -> String {
-    format!("{} s", decimal(language, seconds, 1))
+/// A unit of time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum TimeUnit {
+    Seconds,
+    Milliseconds,
+    Microseconds,
+    Nanoseconds,
+}
+
+impl TimeUnit {
+    /// Returns the unit in which a length of time in seconds is from 1 to 1000.
+    fn of(seconds: f64) -> Self {
+        match seconds {
+            0.0 | 0.9995.. => Self::Seconds,
+            0.9995e-3.. => Self::Milliseconds,
+            0.9995e-6.. => Self::Microseconds,
+            _ => Self::Nanoseconds,
+        }
+    }
+
+    /// Returns its name, and the power of ten of a second that it divides.
+    fn name_and_power(self) -> (&'static str, u32) {
+        match self {
+            Self::Seconds => ("s", 0),
+            Self::Milliseconds => ("ms", 3),
+            Self::Microseconds => ("µs", 6),
+            Self::Nanoseconds => ("ns", 9),
+        }
+    }
+}
+
+/// Unit and precision of the times of one run. All times of a run have the same unit, which follows its length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeScale {
+    unit: TimeUnit,
+    /// Decimals of a second.
+    decimals: u32,
+}
+
+impl TimeScale {
+    /// Returns the scale of a run of this length. A twentieth of the run can be told from the next.
+    pub fn of_length(length: Time) -> Self {
+        Self { unit: TimeUnit::of(length.secs()), decimals: Self::decimals_at(length.secs() / 2.0) }
+    }
+
+    /// Returns a scale that is precise enough to follow a run at this playback rate, in run seconds per second.
+    pub fn at_rate(self, rate: f64) -> Self {
+        Self { decimals: self.decimals.max(Self::decimals_at(rate)), ..self }
+    }
+
+    /// Returns a scale with more decimals.
+    pub fn finer(self, decimals: u32) -> Self {
+        Self { decimals: (self.decimals + decimals).min(9), ..self }
+    }
+
+    /// Returns a scale with this number of decimals in its unit, for figures that are compared.
+    pub fn with_decimals(self, decimals: u32) -> Self {
+        let (_, power) = self.unit.name_and_power();
+        Self { decimals: (power + decimals).min(9), ..self }
+    }
+
+    /// Returns the decimals of a second for times that differ by a tenth of `grain` seconds.
+    fn decimals_at(grain: f64) -> u32 {
+        if grain >= 1.0 || grain == 0.0 { 1 } else { (1.0 - grain.log10().floor()).clamp(1.0, 9.0) as u32 }
+    }
 }
 
 /// Writes a length of time in the unit that suits it: `20.4 s`, `200 ms`, `1.3 ms`, `840 µs`.
 pub fn duration(length: Duration, language: Language) -> String {
-    let ms = length.as_secs_f64() * 1e3;
-    if length.is_zero() {
-        "0 s".into()
-    } else if ms < 0.9995 {
-        format!("{:.0} µs", ms * 1e3)
-    } else if ms < 9.95 {
-        format!("{} ms", decimal(language, ms, 1))
-    } else if ms < 999.5 {
-        format!("{ms:.0} ms")
-    } else {
-        seconds_words(ms * 1e-3, language)
-    }
+    let unit = TimeUnit::of(length.as_secs_f64());
+    let (name, power) = unit.name_and_power();
+    let number = length.as_secs_f64() * 10_f64.powi(power as i32);
+    let digits = match unit {
+        _ if length.is_zero() => 0,
+        TimeUnit::Seconds => 1,
+        TimeUnit::Nanoseconds => 0,
+        _ if number < 9.95 => 1,
+        _ => 0,
+    };
+    format!("{} {name}", decimal(language, number, digits))
 }
 
-/// Writes a time of the run as exactly as one can follow it at a playback rate, in run seconds per second: `13.4 s`,
-/// `13.402 518 s`.
-pub fn time_words(time: Time, rate: f64, language: Language) -> String {
-    let digits = if rate >= 1.0 { 1 } else { (1.0 - rate.log10().floor()).clamp(1.0, 9.0) as usize };
-    let text = format!("{:.digits$}", time.secs());
+/// Writes a time of a run in the scale of the run: `13.4 s`, `13.402 518 s`, `3.2 ms`.
+pub fn time_words(time: Time, scale: TimeScale, language: Language) -> String {
+    let (name, power) = scale.unit.name_and_power();
+    let digits = scale.decimals.saturating_sub(power) as usize;
+    let text = format!("{:.digits$}", time.secs() * 10_f64.powi(power as i32));
     let (whole, part) = text.split_once('.').unwrap_or((&text, ""));
-    let mut words = format!("{whole}.");
+    let mut words = whole.to_owned();
     for (place, digit) in part.chars().enumerate() {
-        if place > 0 && place.is_multiple_of(3) {
-            words.push(NO_BREAK_SPACE);
+        match place {
+            0 => words.push('.'),
+            _ if place.is_multiple_of(3) => words.push(NO_BREAK_SPACE),
+            _ => {}
         }
         words.push(digit);
     }
-    comma(language, words) + " s"
+    format!("{} {name}", comma(language, words))
 }
 
 /// Returns the word for what a node is doing.
@@ -252,6 +315,14 @@ mod tests {
     }
 
     #[test]
+    fn only_nothing_is_0_per_cent() {
+        assert_eq!(
+            [0.0, 1e-4, 0.0049, 0.0051, 0.634, 1.0].map(fraction),
+            ["0 %", "< 1 %", "< 1 %", "1 %", "63 %", "100 %"]
+        );
+    }
+
+    #[test]
     fn count_separates_thousands() {
         assert_eq!(count(0_u32), "0");
         assert_eq!(count(144_u32), "144");
@@ -264,15 +335,39 @@ mod tests {
         let written = [0, 840, 1_300, 40_000, 999_400, 999_600, 20_440_000]
             .map(|micros| duration(Duration::from_micros(micros), language));
         assert_eq!(written, ["0 s", "840 µs", "1.3 ms", "40 ms", "999 ms", "1.0 s", "20.4 s"]);
+        let written = [1, 100, 2_300, 999_800].map(|nanos| duration(Duration::from_nanos(nanos), language));
+        assert_eq!(written, ["1 ns", "100 ns", "2.3 µs", "1.0 ms"]);
+    }
+
+    #[test]
+    fn unit_follows_the_length_of_the_run() {
+        let language = Language::English;
+        let half = |length: u64| time_words(Time(length / 2), TimeScale::of_length(Time(length)), language);
+        let written = [0, 300, 6_400, 3_200_000, 640_000_000, 1_300_000_000, 20_000_000_000].map(half);
+        assert_eq!(written, ["0.0 s", "150 ns", "3.2 µs", "1.6 ms", "320 ms", "0.65 s", "10.0 s"]);
+        // Neighbouring twentieths of a run differ, and no unit is too large or too small.
+        for power in 2..11 {
+            for length in [1, 2, 5, 9].map(|factor| factor * 10_u64.pow(power)) {
+                let scale = TimeScale::of_length(Time(length));
+                let times = (0..=20).map(|part| time_words(Time(part * length / 20), scale, language));
+                let times: std::collections::BTreeSet<_> = times.collect();
+                assert!(times.len() == 21 && times.iter().all(|time| time.chars().count() <= 9), "{times:?}");
+            }
+        }
     }
 
     #[test]
     fn time_has_more_digits_at_a_slower_playback_rate() {
         let language = Language::English;
-        let written = [2.0, 1.0, 0.1, 1e-3, 1e-6].map(|rate| time_words(Time(13_402_518_077), rate, language));
+        let scale = TimeScale::of_length(Time::from_secs(20.0));
+        let at_rate = |rate| time_words(Time(13_402_518_077), scale.at_rate(rate), language);
+        let written = [2.0, 1.0, 0.1, 1e-3, 1e-6].map(at_rate);
         let expected = ["13.4 s", "13.4 s", "13.40 s", "13.402\u{a0}5 s", "13.402\u{a0}518\u{a0}1 s"];
         assert_eq!(written, expected);
-        assert_eq!(time_words(Time(60_999_999_999), 1.0, language), "61.0 s");
+        assert_eq!(time_words(Time(60_999_999_999), scale, language), "61.0 s");
+        assert_eq!(time_words(Time(13_402_518_077), scale.with_decimals(3), language), "13.403 s");
+        let [exact, finer] = [scale.with_decimals(9), scale.finer(2)].map(|scale| time_words(Time(1), scale, language));
+        assert_eq!([&*exact, &*finer], ["0.000\u{a0}000\u{a0}001 s", "0.000 s"]);
     }
 
     #[test]
@@ -333,6 +428,7 @@ mod tests {
         assert_eq!([left_words(1, language), left_words(2, language)], ["resta 1 átomo", "restam 2 átomos"]);
         assert_eq!(names(&[0, 1, 7], language), "1, 2 e 8");
         assert_eq!(duration(Duration::from_micros(1_300), language), "1,3 ms");
-        assert_eq!(time_words(Time(13_402_518_077), 1e-3, language), "13,402\u{a0}5 s");
+        let scale = TimeScale::of_length(Time::from_secs(20.0)).at_rate(1e-3);
+        assert_eq!(time_words(Time(13_402_518_077), scale, language), "13,402\u{a0}5 s");
     }
 }

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use super::format::{
-    activity_word, atoms_words, count, counted, duration, fraction, node_name, party_name, percent, rate_words,
-    seconds_words,
+    TimeScale, activity_word, atoms_words, count, counted, duration, fraction, node_name, party_name, percent,
+    rate_words, time_words,
 };
 use crate::balance::{Condition, NodeId, Party, Scheduler};
 use crate::language::{Language, say, word};
@@ -196,7 +196,8 @@ pub fn atom_words(state: &RunState, atom: Atom, now: Time, language: Language) -
     let place = match (atom_state, state.carrier(atom)) {
         (AtomState::Traced { by, cost, at, .. }, _) => {
             let cost = duration(Duration::try_from_secs_f32(cost).unwrap_or_default(), language);
-            let (by, at) = (node_name(by), seconds_words(at.secs(), language));
+            let length = state.finished().unwrap_or(state.head());
+            let (by, at) = (node_name(by), time_words(at, TimeScale::of_length(length), language));
             say!(
                 language,
                 "traced by {by} at {at}, at a cost of {cost}",

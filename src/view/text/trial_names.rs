@@ -1,6 +1,6 @@
 //! Changes of a trial run in words, and names of trial runs.
 
-use super::format::{count, duration, fraction, node_name, time_words};
+use super::format::{TimeScale, count, duration, fraction, node_name, time_words};
 use super::remedies::without;
 use crate::balance::Scheduler;
 use crate::balance::Strategy;
@@ -18,7 +18,8 @@ pub fn change_words(change: &Change, language: Language) -> String {
             say!(language, "{name} at {speed}", "{name} a {speed}")
         }
         Change::SpeedAt(at, node, speed) => {
-            let (at, name, speed) = (time_words(at, 1.0, language), node_name(node), fraction(speed));
+            let (at, name, speed) =
+                (time_words(at, TimeScale::of_length(at), language), node_name(node), fraction(speed));
             say!(language, "{name} at {speed} from {at} on", "{name} a {speed} a partir de {at}")
         }
         Change::Without(remedy) => without(remedy, language),

@@ -23,6 +23,9 @@ pub struct TimelineLayout {
 pub(super) const STRIP_TOP_PX: f32 = 20.0;
 const STRIP_HEIGHT_PX: f32 = 20.0;
 
+/// Distances between the numbers of lanes.
+const LABEL_STEPS: [u16; 15] = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000, 20_000, 50_000];
+
 impl TimelineLayout {
     /// Lays out a number of lanes in a width and a height. A low timeline has no header and no axis.
     pub fn new(lanes: usize, width: f32, height: f32) -> Self {
@@ -35,7 +38,20 @@ impl TimelineLayout {
     /// Returns the top and the bottom of a lane.
     pub fn lane(&self, node: NodeId) -> [f32; 2] {
         let top = self.header_height + f32::from(node) * self.lane_height;
-        [top, top + self.lane_height - if self.lane_height > 8.0 { 2.0 } else { 1.0 }]
+        // Lanes of less than a few pixels have no room for a whole pixel between them.
+        let gap = if self.lane_height > 8.0 { 2.0 } else { (0.25 * self.lane_height).min(1.0) };
+        [top, top + self.lane_height - gap]
+    }
+
+    /// Returns the lanes whose numbers have room if each number is this high: all of them, or those with round numbers.
+    pub fn numbered(&self, text_height: f32) -> impl Iterator<Item = NodeId> + use<> {
+        let step = LABEL_STEPS.into_iter().find(|&step| f32::from(step) * self.lane_height >= text_height);
+        let step = step.unwrap_or(u16::MAX);
+        // Every second lane, and more, begins with lane 2, 5, 10 …
+        (1..)
+            .map(move |number: u16| number.saturating_mul(step))
+            .take(self.lanes / usize::from(step))
+            .map(|name| name - 1)
     }
 
     /// Returns the node whose lane is at `y`.
@@ -63,5 +79,28 @@ impl TimelineLayout {
     pub(super) fn middle(&self, node: NodeId) -> f32 {
         let [top, bottom] = self.lane(node);
         (top + bottom) / 2.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_many_lanes_are_round_and_do_not_touch() {
+        let numbered = |lanes, height| {
+            let layout = TimelineLayout::new(lanes, 800.0, height);
+            let nodes: Vec<NodeId> = layout.numbered(13.0).collect();
+            let middles = nodes.iter().map(|&node| layout.middle(node)).collect::<Vec<_>>();
+            assert!(middles.windows(2).all(|pair| pair[1] - pair[0] >= 12.9), "{middles:?}");
+            assert!(nodes.iter().all(|&node| layout.lane(node)[0] < layout.lane(node)[1]));
+            nodes.iter().map(|node| node + 1).collect::<Vec<_>>()
+        };
+        assert_eq!(numbered(4, 200.0), [1, 2, 3, 4]);
+        assert_eq!(numbered(32, 280.0)[..3], [2, 4, 6]);
+        assert_eq!(numbered(1000, 280.0), [100, 200, 300, 400, 500, 600, 700, 800, 900, 1000]);
+        assert!(numbered(65_535, 280.0).len() > 3);
+        // One lane always has its number.
+        assert_eq!(numbered(1, 30.0), [1]);
     }
 }

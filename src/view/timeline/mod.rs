@@ -3,6 +3,7 @@
 pub mod conditions;
 pub mod landmarks;
 pub mod layout;
+pub mod legend;
 pub mod markers;
 pub mod quads;
 pub mod time_window;
@@ -42,7 +43,7 @@ pub fn timeline(lanes: &Lanes, window: &TimeWindow, layout: &TimelineLayout, hea
 }
 
 /// Returns round times for the axis below the lanes, far enough apart for their words, and the precision of these
-/// words, as a rate for [`time_words`](super::text::format::time_words).
+/// words, as a rate for [`TimeScale::at_rate`](super::text::format::TimeScale::at_rate).
 pub fn axis(window: &TimeWindow, width: f32) -> (Vec<Time>, f64) {
     const MIN_TICK_DISTANCE_PX: f64 = 110.0;
     let length = (window.to().0 - window.from().0) as f64;
@@ -184,39 +185,49 @@ fn draw_messages(
     layout: &TimelineLayout,
     lines: &mut Vec<([f32; 2], [f32; 2], Ink)>,
 ) {
-    let drawn = |load: Load| trips_in(lanes, window).filter(move |trip| trip.load == load);
-    let mut draw = |trip: &Trip, alpha: f32| {
-        let (Party::Node(from), Party::Node(to)) = (trip.from, trip.to) else { return };
-        let inside = |node: NodeId| usize::from(node) < layout.lanes;
-        if inside(from) && inside(to) {
-            let start = [layout.x(window, trip.sent), layout.middle(from)];
-            lines.push((start, [layout.x(window, trip.arrives), layout.middle(to)], Hue::Text.faint(alpha)));
+    for (load, alpha) in [(Load::Atoms, 0.7), (Load::Offer, 0.25)] {
+        // Too many messages would cover the lanes; the ring shows them.
+        if offers_and_transfers(lanes, window, load).count() > MAX_LINES {
+            continue;
         }
-    };
-    let between = |load: Load| {
-        drawn(load).filter(|trip| matches!((trip.from, trip.to), (Party::Node(_), Party::Node(_)))).count()
-    };
-    // Too many messages would cover the lanes; the ring shows them.
-    if between(Load::Atoms) <= MAX_LINES {
-        drawn(Load::Atoms).for_each(|trip| draw(trip, 0.7));
+        let is_inside = |node: &NodeId| usize::from(*node) < layout.lanes;
+        for (trip, from, to) in offers_and_transfers(lanes, window, load) {
+            if is_inside(&from) && is_inside(&to) {
+                let start = [layout.x(window, trip.sent), layout.middle(from)];
+                lines.push((start, [layout.x(window, trip.arrives), layout.middle(to)], Hue::Text.faint(alpha)));
+            }
+        }
     }
-    if between(Load::Offer) <= MAX_LINES {
-        drawn(Load::Offer).for_each(|trip| draw(trip, 0.25));
-    }
-    // A message to or from the parent is a tick on the lane, at its departure or arrival.
-    let of_parent = |trip: &Trip| match (trip.from, trip.to) {
-        _ if trip.load == Load::Notice => None,
-        (Party::Node(node), Party::Parent) => Some((node, trip.sent)),
-        (Party::Parent, Party::Node(node)) => Some((node, trip.arrives)),
-        _ => None,
-    };
-    let ticks: Vec<_> = trips_in(lanes, window).filter_map(of_parent).take(MAX_LINES + 1).collect();
+    let ticks: Vec<_> = parent_ticks(lanes, window).take(MAX_LINES + 1).collect();
     if ticks.len() <= MAX_LINES {
         lines.extend(ticks.into_iter().map(|(node, at)| {
             let ([_, bottom], x) = (layout.lane(node), layout.x(window, at));
             ([x, bottom - 5.0], [x, bottom], Hue::Text.faint(0.8))
         }));
     }
+}
+
+/// Returns the messages of a kind between machines in the window, with sender and receiver.
+fn offers_and_transfers<'a>(
+    lanes: &'a Lanes,
+    window: &TimeWindow,
+    load: Load,
+) -> impl Iterator<Item = (&'a Trip, NodeId, NodeId)> {
+    trips_in(lanes, window).filter(move |trip| trip.load == load).filter_map(|trip| match (trip.from, trip.to) {
+        (Party::Node(from), Party::Node(to)) => Some((trip, from, to)),
+        _ => None,
+    })
+}
+
+/// Returns a tick for each message to or from the parent in the window: the machine, and the time at which it sends or
+/// receives the message.
+fn parent_ticks(lanes: &Lanes, window: &TimeWindow) -> impl Iterator<Item = (NodeId, Time)> {
+    trips_in(lanes, window).filter_map(|trip| match (trip.from, trip.to) {
+        _ if trip.load == Load::Notice => None,
+        (Party::Node(node), Party::Parent) => Some((node, trip.sent)),
+        (Party::Parent, Party::Node(node)) => Some((node, trip.arrives)),
+        _ => None,
+    })
 }
 
 /// Returns the messages that are on their way within the window.

@@ -54,7 +54,8 @@ fn axis_has_round_times_inside_the_window() {
     let (times, rate) = axis(&window, WIDTH);
     assert!((3..=8).contains(&times.len()) && rate < 1.0, "{times:?}");
     assert!(times.iter().all(|&time| window.from() <= time && time <= window.to()));
-    let words: Vec<_> = times.iter().map(|&time| crate::view::time_words(time, rate, language)).collect();
+    let scale = crate::view::TimeScale::of_length(window.to()).at_rate(rate);
+    let words: Vec<_> = times.iter().map(|&time| crate::view::time_words(time, scale, language)).collect();
     assert!(words.windows(2).all(|pair| pair[0] != pair[1]), "{words:?}");
 }
 

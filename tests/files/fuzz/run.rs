@@ -15,9 +15,9 @@ use anel::time::Time;
 use anel::tracer::Scratch;
 use anel::view::{
     Details, Layer, Narrator, RingLayout, RingOverlay, RunState, RunView, Snapshot, SnapshotCache, StepUnit, Summary,
-    TimeWindow, TimelineLayout, atom_words, axis, drawing_notes, flight_words, landmarks, node_rows, node_shares,
-    node_words, parent_words, picture_pixels, record_words, result_words, ring, step, time_words, timeline,
-    timeline_at, work_split_words,
+    TimeScale, TimeWindow, TimelineLayout, atom_words, axis, drawing_notes, flight_words, landmarks, node_rows,
+    node_shares, node_words, parent_words, picture_pixels, record_words, result_words, ring, step, time_words,
+    timeline, timeline_at, work_split_words,
 };
 
 use super::assert_sentence;
@@ -100,7 +100,7 @@ fn go_through(log: &RunLog, language: Language) {
         let details = Details::of(mark.subject, log, &known.lanes, &mut past, language);
         said += &format!(
             "{:?}{:?}",
-            details.words(&moment.state, mark.at, 0.1, language),
+            details.words(&moment.state, mark.at, TimeScale::of_length(mark.at), language),
             details.highlight(&moment.state)
         );
     }
@@ -113,7 +113,10 @@ fn go_through(log: &RunLog, language: Language) {
         let drawn = timeline(&known.lanes, &window, &plan, end);
         assert!(drawn.quads.iter().all(|quad| quad.place.iter().all(|side| side.is_finite())));
         let (times, rate) = axis(&window, 300.0);
-        said += &times.into_iter().map(|time| time_words(time, rate, language)).collect::<String>();
+        said += &times
+            .into_iter()
+            .map(|time| time_words(time, TimeScale::of_length(time).at_rate(rate), language))
+            .collect::<String>();
         for y in [0.0, 60.0, 150.0] {
             said += &format!("{:?}", timeline_at(&known.lanes, &window, &plan, [120.0, y]));
         }

@@ -14,7 +14,9 @@ use crate::gui::widgets::{Emphasis, button, named_button, popup_frame};
 use crate::language::{Language, say, word};
 use crate::sim::{Change, Trial};
 use crate::time::Time;
-use crate::view::{change_words, count, duration, fraction, node_name, remedy_hint, remedy_name, time_words};
+use crate::view::{
+    TimeScale, change_words, count, duration, fraction, node_name, remedy_hint, remedy_name, time_words,
+};
 
 /// Shows the menu of strategies. Returns the chosen one as a change.
 pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look, language: Language) -> Option<Change> {
@@ -90,7 +92,7 @@ pub fn changes(
         let always = values(&speeds, initial, |speed| Change::Speed(node, speed));
         chosen = chosen.or(row(ui, word!(language, "from the beginning", "desde o início"), always, look, language));
         if let Some(now) = now {
-            let at = time_words(now, 1.0, language);
+            let at = time_words(now, TimeScale::of_length(now), language);
             let later = values(&speeds, trial.speed_at(now, node), |speed| Change::SpeedAt(now, node, speed));
             chosen = chosen.or(row(ui, &say!(language, "from {at} on", "a partir de {at}"), later, look, language));
         }

@@ -13,7 +13,7 @@ use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
 use crate::language::{Language, word};
-use crate::view::{fraction, time_words};
+use crate::view::{TimeScale, fraction, time_words};
 
 impl Compare {
     /// Shows the line.
@@ -100,7 +100,7 @@ impl Compare {
             self.handle_command(command);
         }
         ui.add_space(GRID);
-        let shown = time_words(self.time.now(), 1.0, language);
+        let shown = time_words(self.time.now(), TimeScale::of_length(self.length()), language);
         ui.label(RichText::new(shown).font(theme::strong(theme::LARGE)).color(look.text));
     }
 

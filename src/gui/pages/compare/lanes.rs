@@ -5,13 +5,14 @@ use egui::{Align2, Painter, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 use super::CompareColumn;
 use super::columns::letter;
-use crate::balance::NodeId;
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, word};
 use crate::time::Time;
-use crate::view::{ComparedRun, TimeWindow, TimelineLayout, axis, node_name, time_budget_words, time_words, timeline};
+use crate::view::{
+    ComparedRun, TimeScale, TimeWindow, TimelineLayout, axis, node_name, time_budget_words, time_words, timeline,
+};
 
 /// Width of the run's letter left of the lanes, in points.
 const LETTER_WIDTH_PT: f32 = 2.5 * GRID;
@@ -109,8 +110,7 @@ fn run_lanes(
 
 /// Paints the machines' numbers, every nth if lanes are low.
 fn numbers(painter: &Painter, strip: Rect, layout: &TimelineLayout, look: Look) {
-    let every = (theme::SMALL / layout.lane_height).ceil().max(1.0) as usize;
-    for node in (0..layout.lanes as NodeId).step_by(every) {
+    for node in layout.numbered(theme::SMALL) {
         let [top, bottom] = layout.lane(node);
         let at = pos2(strip.left() - 0.5 * GRID, strip.top() + (top + bottom) / 2.0);
         painter.text(at, Align2::RIGHT_CENTER, node_name(node), theme::regular(theme::SMALL), look.quiet);
@@ -123,7 +123,8 @@ fn time_axis(painter: &Painter, all: Rect, window: &TimeWindow, look: Look, lang
     for time in times {
         let x = all.left() + all.width() * window.share(time) as f32;
         painter.line_segment([pos2(x, all.top()), pos2(x, all.bottom() + 3.0)], Stroke::new(1.0, look.hairline));
-        let galley = painter.layout_no_wrap(time_words(time, rate, language), theme::regular(theme::SMALL), look.quiet);
+        let words = time_words(time, TimeScale::of_length(window.to()).at_rate(rate), language);
+        let galley = painter.layout_no_wrap(words, theme::regular(theme::SMALL), look.quiet);
         let left = (x - galley.size().x / 2.0).clamp(all.left(), (all.right() - galley.size().x).max(all.left()));
         painter.galley(pos2(left, all.bottom() + 2.0), galley, look.quiet);
     }

@@ -3,7 +3,7 @@
 mod course;
 mod panel;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
@@ -12,7 +12,7 @@ use crate::balance::Strategy;
 use crate::gui::input::keys::UserCommand;
 use crate::gui::session::{PreparedLesson, PreparingLesson, Purpose, Recorded, Session};
 use crate::gui::widgets::icons::Icon;
-use crate::gui::widgets::path_input::{no_file_chosen, path_field, resolve};
+use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, path_field};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
 use crate::language::{Language, word};
@@ -27,7 +27,7 @@ pub struct Learn {
     open: bool,
     /// The built-in lessons; empty until the list is opened.
     lessons: Vec<Arc<Lesson>>,
-    path: String,
+    path: TypedPath,
     trouble: Option<String>,
     preparing: Option<PreparingLesson>,
     progress: Option<LessonProgress>,
@@ -92,7 +92,7 @@ impl Learn {
     }
 
     /// Reads the file of a lesson and prepares it.
-    fn start(&mut self, argument: &str, session: &mut Session) {
+    fn start(&mut self, argument: &Path, session: &mut Session) {
         match Lesson::open(argument) {
             Ok(lesson) => self.prepare(Arc::new(lesson), session),
             Err(error) => self.trouble = Some(error.to_string()),
@@ -104,8 +104,8 @@ impl Learn {
         let language = session.language();
         match chosen {
             Some(path) => {
-                self.path = path.display().to_string();
-                self.start(&path.to_string_lossy(), session);
+                self.path.set(path.clone());
+                self.start(&path, session);
             }
             None => self.trouble = Some(no_file_chosen(language).into()),
         }
@@ -242,12 +242,12 @@ impl Learn {
         ui.horizontal(|ui| {
             let hint = word!(language, "path of a lesson, for example mine.ron", "uma lição, por exemplo minha.ron");
             let name = word!(language, "Path of a lesson", "Caminho de uma lição");
-            let field = path_field(ui, (&mut self.path, hint), 40.0 * GRID, name, &mut false);
+            let field = path_field(ui, (self.path.text_mut(), hint), 40.0 * GRID, name, &mut false);
             let opens =
                 button(ui, None, word!(language, "Open the lesson", "Abrir a lição"), true, Emphasis::Quiet).clicked();
-            if (field.entered || opens) && !self.path.trim().is_empty() {
-                match resolve(&self.path, std::env::home_dir(), language) {
-                    Ok(path) => self.start(&path.to_string_lossy(), session),
+            if (field.entered || opens) && !self.path.text().trim().is_empty() {
+                match self.path.resolve(std::env::home_dir(), language) {
+                    Ok(path) => self.start(&path, session),
                     Err(why) => self.trouble = Some(why),
                 }
             }

@@ -159,12 +159,13 @@ fn controls(ui: &mut Ui, layout: &RowLayout, node: NodeId, session: &mut Session
     let can_pause = enabled && session.stage().phase == Phase::Running;
     let at = |rect: Rect, salt: &str| UiBuilder::new().max_rect(rect).id_salt((salt, node));
     ui.scope_builder(at(layout.slider, "slider"), |ui| speed_slider(ui, node, layout.slider.width(), session));
-    let before = (session.speed(node) * 100.0).round();
+    // The column has room for one decimal.
+    let before = (session.speed(node) * 1e3).round() / 10.0;
     let mut percent = before;
     ui.scope_builder(at(layout.speed, "value"), |ui| {
         ui.add_enabled_ui(enabled, |ui| {
             let name = say!(language, "Exact speed of machine {name}", "Velocidade exata da máquina {name}");
-            widgets::number_field(ui, &mut percent, 0.0..=100.0, " %", layout.speed.width(), &name);
+            widgets::number_field(ui, &mut percent, 0.0..=100.0, " %", layout.speed.width(), (&name, language));
         });
     });
     if percent != before {

@@ -1,7 +1,9 @@
 //! Kinds of files that the save bar writes, with their texts and file names.
 
-use crate::language::{Language, word};
-use crate::output::as_file_name;
+use std::path::Path;
+
+use crate::language::{Language, say, word};
+use crate::output::{as_file_name, check_ending};
 use crate::picture::Size;
 use crate::runlog::Header;
 
@@ -156,6 +158,30 @@ impl SaveKind {
             "json" => "JSON",
             _ => "ANEL",
         }
+    }
+
+    /// Checks that the extension of the path does not stand for another format.
+    ///
+    /// # Errors
+    /// A sentence with the possible extension.
+    pub fn check_ending(self, path: &Path, language: Language) -> Result<(), String> {
+        let (format, own) = (self.format(), self.ending());
+        let also: &[&str] = match self {
+            Self::Ring | Self::Timeline | Self::Bars => &["svg", "png"],
+            Self::Run => &["anel", "json", "jsonl"],
+            _ => &[own],
+        };
+        check_ending(path, format, also).map_err(|_| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let endings = also.iter().take(if self == Self::Run { 1 } else { 2 }).map(|ending| format!(".{ending}"));
+            let endings: Vec<_> = endings.collect();
+            let endings = endings.join(word!(language, " or ", " ou "));
+            say!(
+                language,
+                "{name}: this is no name for such a file. Let it end in {endings}",
+                "{name}: este nome não serve para um arquivo assim. Termine com {endings}"
+            )
+        })
     }
 
     /// Returns the extension of its file.

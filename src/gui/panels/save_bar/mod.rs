@@ -3,7 +3,7 @@
 mod kinds;
 mod retraced;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use egui::{ComboBox, Label, RichText, Ui, WidgetInfo};
 
@@ -11,7 +11,7 @@ use crate::export::{Comparison, Drawing, Film};
 use crate::gui::input::keys::UserCommand;
 use crate::gui::session::{Export, Phase, Purpose, Session};
 use crate::gui::widgets::icons::Icon;
-use crate::gui::widgets::path_input::{no_file_chosen, path_field, resolve};
+use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, path_field};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
 use crate::language::{Language, say, word};
@@ -36,9 +36,9 @@ pub struct SaveBar {
     /// Whether the path field has the focus.
     focused: bool,
     kind: SaveKind,
-    path: String,
+    path: TypedPath,
     /// The path that the bar suggested last. The bar updates the path until the user changes it.
-    suggested: String,
+    suggested: TypedPath,
     /// The existing file that a second press of Save replaces.
     warned: Option<PathBuf>,
     /// The error of the last attempt.
@@ -86,7 +86,7 @@ impl SaveBar {
         self.wants_focus = true;
         self.trouble = None;
         match chosen {
-            Some(path) => self.path = path.display().to_string(),
+            Some(path) => self.path.set(path),
             None => self.trouble = Some(no_file_chosen(language).into()),
         }
     }
@@ -122,7 +122,7 @@ impl SaveBar {
             ui.label(quiet(word!(language, "as", "como")));
             let width = (ui.available_width() - word!(language, 43.0, 47.5) * GRID).max(20.0 * GRID);
             let name = word!(language, "Path of the file", "Caminho do arquivo");
-            let field = path_field(ui, (&mut self.path, ""), width, name, &mut self.wants_focus);
+            let field = path_field(ui, (self.path.text_mut(), ""), width, name, &mut self.wants_focus);
             self.focused = field.focused;
             if field.changed {
                 (self.warned, self.trouble) = (None, None);
@@ -131,10 +131,10 @@ impl SaveBar {
                 self.save(session, subject);
             }
             if button(ui, None, word!(language, "Browse…", "Procurar…"), true, Emphasis::Quiet).clicked() {
-                let typed = resolve(&self.path, std::env::home_dir(), language);
+                let at = [&self.path, &self.suggested].map(|path| path.resolve(std::env::home_dir(), language));
                 session.jobs().choose_file(
                     Purpose::Save,
-                    typed.unwrap_or_else(|_| PathBuf::from(&self.suggested)),
+                    at.into_iter().flatten().next().unwrap_or_default(),
                     language,
                 );
             }
@@ -198,8 +198,8 @@ impl SaveBar {
     /// Chooses a kind; a typed path gets its extension.
     fn choose(&mut self, kind: SaveKind) {
         (self.warned, self.trouble, self.wants_focus) = (None, None, true);
-        if self.path != self.suggested && !self.path.trim().is_empty() {
-            self.path = Path::new(&self.path).with_extension(kind.ending()).display().to_string();
+        if self.path.text() != self.suggested.text() && !self.path.text().trim().is_empty() {
+            self.path.set_extension(kind.ending());
         }
         self.kind = kind;
     }
@@ -218,10 +218,13 @@ impl SaveBar {
     /// Saves the file. An existing file is replaced only at the second press.
     fn save(&mut self, session: &mut Session, subject: &SaveSubject) {
         let language = session.language();
-        let path = match resolve(&self.path, std::env::home_dir(), language) {
+        let path = match self.path.resolve(std::env::home_dir(), language) {
             Ok(path) => path,
             Err(why) => return self.trouble = Some(why),
         };
+        if let Err(why) = self.kind.check_ending(&path, language) {
+            return self.trouble = Some(why);
+        }
         if let Err(error) = check_writable(&path) {
             return self.trouble = Some(error.to_string());
         }
@@ -292,8 +295,9 @@ impl SaveBar {
         let done = session.stage().phase == Phase::Finished;
         let directory = std::env::current_dir().unwrap_or_default();
         let name = self.kind.file_name(session.header(), done, &self.retraced.name(session));
-        let suggested = directory.join(name).display().to_string();
-        if self.path == self.suggested && self.path != suggested {
+        let mut suggested = TypedPath::default();
+        suggested.set(directory.join(name));
+        if self.path.text() == self.suggested.text() && self.path.text() != suggested.text() {
             // Selects the new name.
             self.wants_focus |= self.focused;
             self.path.clone_from(&suggested);

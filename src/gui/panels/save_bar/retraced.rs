@@ -79,7 +79,7 @@ impl RetracedPicture {
                 1..=MAX_SIDE_PX,
                 "",
                 9.0 * GRID,
-                word!(language, "Pixels across", "Pixels na horizontal"),
+                (word!(language, "Pixels across", "Pixels na horizontal"), language),
             );
             ui.label(quiet(ui, "×"));
             number_field(
@@ -88,7 +88,7 @@ impl RetracedPicture {
                 1..=MAX_SIDE_PX,
                 "",
                 9.0 * GRID,
-                word!(language, "Pixels down", "Pixels na vertical"),
+                (word!(language, "Pixels down", "Pixels na vertical"), language),
             );
             ui.label(quiet(ui, word!(language, "samples a pixel, n × n:", "amostras por pixel, n × n:")));
             number_field(
@@ -97,7 +97,7 @@ impl RetracedPicture {
                 1..=16,
                 "",
                 6.0 * GRID,
-                word!(language, "Samples a pixel", "Amostras por pixel"),
+                (word!(language, "Samples a pixel", "Amostras por pixel"), language),
             );
         });
         if size != self.size(session) {

@@ -121,21 +121,28 @@ fn immediate_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
     });
     labelled_row(ui, word!(language, "Random seed", "Semente aleatória"), look, |ui| {
         let before = draft.seed;
-        number_field(ui, &mut draft.seed, 0..=999_999, "", VALUE_WIDTH_PT, word!(language, "Seed", "Semente"));
+        number_field(
+            ui,
+            &mut draft.seed,
+            0..=999_999,
+            "",
+            VALUE_WIDTH_PT,
+            (word!(language, "Seed", "Semente"), language),
+        );
         if draft.seed != before {
             draft.set_preset(SpeedPreset::Random);
         }
     });
     labelled_row(ui, word!(language, "Latency of a hop", "Latência de um salto"), look, |ui| {
         let name = word!(language, "Latency in milliseconds", "Latência em milissegundos");
-        number_field(ui, &mut draft.latency, 0..=Settings::MAX_LATENCY_MS, " ms", VALUE_WIDTH_PT, name);
+        number_field(ui, &mut draft.latency, 0.0..=Settings::MAX_LATENCY_MS, " ms", VALUE_WIDTH_PT, (name, language));
     });
     // A square root, because latencies below half a second matter most.
-    let mut root = f64::from(draft.latency).sqrt();
-    let max = f64::from(Settings::MAX_LATENCY_MS).sqrt();
+    let mut root = draft.latency.sqrt();
+    let max = Settings::MAX_LATENCY_MS.sqrt();
     let name = word!(language, "Latency slider", "Controle da latência");
     if slider(ui, &mut root, (0.0..=max, false), width - GRID, look.accent, name).changed() {
-        draft.latency = (root * root).round() as u32;
+        draft.latency = (root * root).round();
     }
 }
 
@@ -145,7 +152,7 @@ fn restarting_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: 
     let mut nodes = draft.speeds.len() as u32;
     labelled_row(ui, word!(language, "Machines", "Máquinas"), look, |ui| {
         let name = word!(language, "Number of machines", "Número de máquinas");
-        number_field(ui, &mut nodes, 1..=Settings::MAX_NODES as u32, "", VALUE_WIDTH_PT, name);
+        number_field(ui, &mut nodes, 1..=Settings::MAX_NODES as u32, "", VALUE_WIDTH_PT, (name, language));
     });
     let mut dragged = f64::from(nodes);
     let name = word!(language, "Machines slider", "Controle das máquinas");
@@ -177,9 +184,9 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
         let (mut width, mut height) = (draft.size.width(), draft.size.height());
         let [wide, high] =
             word!(language, ["Width in pixels", "Height in pixels"], ["Largura em pixels", "Altura em pixels"]);
-        number_field(ui, &mut height, 16..=Settings::MAX_SIDE_PX, "", 5.5 * GRID, high);
+        number_field(ui, &mut height, 16..=Settings::MAX_SIDE_PX, "", 5.5 * GRID, (high, language));
         ui.label(RichText::new("×").font(theme::regular(theme::BODY)).color(look.quiet));
-        number_field(ui, &mut width, 16..=Settings::MAX_SIDE_PX, "", 5.5 * GRID, wide);
+        number_field(ui, &mut width, 16..=Settings::MAX_SIDE_PX, "", 5.5 * GRID, (wide, language));
         if let Ok(size) = Size::new(width, height) {
             draft.size = size;
         }
@@ -188,7 +195,7 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     labelled_row(ui, name, look, |ui| {
         let samples = &mut draft.quality.samples;
         let suffix = format!(" × {samples}");
-        number_field(ui, samples, 1..=Settings::MAX_SAMPLES, &suffix, 9.0 * GRID, name);
+        number_field(ui, samples, 1..=Settings::MAX_SAMPLES, &suffix, 9.0 * GRID, (name, language));
         let hint = word!(language, "More settings of quality and speed", "Mais ajustes de qualidade e velocidade");
         let more = button(ui, None, word!(language, "Quality…", "Mais…"), true, Emphasis::Quiet).on_hover_text(hint);
         let popup = Popup::from_toggle_button_response(&more).frame(popup_frame(ui.ctx()).inner_margin(1.5 * GRID));
@@ -199,7 +206,7 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     });
     labelled_row(ui, word!(language, "An atom has", "Um átomo tem"), look, |ui| {
         let name = word!(language, "Pixels in an atom", "Pixels num átomo");
-        number_field(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE_WIDTH_PT, name);
+        number_field(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE_WIDTH_PT, (name, language));
     });
     let atoms = count(draft.division().atoms());
     explanation(ui, &say!(language, "The picture has {atoms} atoms", "A imagem tem {atoms} átomos"), look);
@@ -224,7 +231,7 @@ fn quality(ui: &mut Ui, quality: &mut Quality, look: Look, language: Language) {
     labelled_row(ui, word!(language, "Tree of rays", "Árvore de raios"), look, |ui| {
         let (suffix, name) =
             word!(language, (" levels", "Levels of the tree of rays"), (" níveis", "Níveis da árvore de raios"));
-        number_field(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE_WIDTH_PT, name);
+        number_field(ui, &mut quality.max_depth, 1..=Quality::MAX_DEPTH, suffix, VALUE_WIDTH_PT, (name, language));
     });
     let cutoff_text = |cutoff: f64| {
         let max = two_digits(100.0 * cutoff, language);
@@ -252,7 +259,7 @@ fn value_list(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl 
 /// Shows the settings of the pace.
 fn pace(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     high_row(ui, word!(language, "Pace", "Ritmo"), look, |ui| {
-        let seconds = if let Pace::Lasts(seconds) = draft.pace { seconds } else { 20 };
+        let seconds = if let Pace::Lasts(seconds) = draft.pace { seconds } else { 20.0 };
         let full = word!(
             language,
             "As fast as this computer: a machine at 100 % never waits",
@@ -270,7 +277,7 @@ fn pace(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     if let Pace::Lasts(seconds) = &mut draft.pace {
         labelled_row(ui, word!(language, "If shared well, about", "Se bem dividida"), look, |ui| {
             let name = word!(language, "Seconds of the run", "Segundos da execução");
-            number_field(ui, seconds, 1..=Settings::MAX_RUN_S, " s", VALUE_WIDTH_PT, name).on_hover_text(word!(language, 
+            number_field(ui, seconds, 1.0..=Settings::MAX_RUN_S, " s", VALUE_WIDTH_PT, (name, language)).on_hover_text(word!(language, 
                 "The run takes this time if nearly all machines work until the end, as in a ring. Bands take longer with a \
                  slow machine. In real time, other programs on this computer also make the run longer",
                 "A execução leva esse tempo se quase todas as máquinas trabalham até o fim, como num anel. Faixas levam mais \

@@ -85,7 +85,7 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             } else {
                 word!(language, " atoms", " átomos")
             };
-            number_field(ui, &mut draft.part, 1..=10_000, suffix, VALUE_WIDTH_PT, name);
+            number_field(ui, &mut draft.part, 1..=10_000, suffix, VALUE_WIDTH_PT, (name, language));
         });
     });
     if is_adaptive {
@@ -99,7 +99,7 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
         labelled_row(ui, word!(language, "The parent takes", "O pai leva"), look, |ui| {
             let (max, suffix) = (Settings::MAX_HANDLING_MS, word!(language, " ms each", " ms cada"));
             let name = word!(language, "Parent's milliseconds for a message", "Milissegundos do pai por mensagem");
-            number_field(ui, &mut draft.handling, 0..=max, suffix, 13.0 * GRID, name).on_hover_text(word!(
+            number_field(ui, &mut draft.handling, 0.0..=max, suffix, 13.0 * GRID, (name, language)).on_hover_text(word!(
                 language,
                 "Time that the parent needs for each message. If messages come faster, they wait in line, and machines \
                 wait for their answers",
@@ -111,11 +111,13 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             let no_limit = word!(language, ": no limit", ": sem limite");
             let (max, suffix) = (Settings::MAX_BANDWIDTH_KB_S, if draft.bandwidth == 0 { no_limit } else { " kB/s" });
             let name = word!(language, "Kilobytes a second", "Quilobytes por segundo");
-            number_field(ui, &mut draft.bandwidth, 0..=max, suffix, VALUE_WIDTH_PT, name).on_hover_text(word!(
-                language,
-                "An Ethernet of 1997 carried at most 1250 kB/s. 0 means no limit",
-                "Uma Ethernet de 1997 levava no máximo 1250 kB/s. 0 significa sem limite"
-            ));
+            number_field(ui, &mut draft.bandwidth, 0..=max, suffix, VALUE_WIDTH_PT, (name, language)).on_hover_text(
+                word!(
+                    language,
+                    "An Ethernet of 1997 carried at most 1250 kB/s. 0 means no limit",
+                    "Uma Ethernet de 1997 levava no máximo 1250 kB/s. 0 significa sem limite"
+                ),
+            );
         });
         if draft.bandwidth > 0 {
             let text = word!(language, "All share one wire", "Todos num só cabo");
@@ -134,11 +136,12 @@ fn spares(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     labelled_row(ui, word!(language, "Spare machines", "Máquinas de reserva"), look, |ui| {
         let mut spares = draft.spares.len() as u32;
         let name = word!(language, "Number of spare machines", "Número de máquinas de reserva");
-        number_field(ui, &mut spares, 0..=Settings::MAX_SPARES as u32, "", VALUE_WIDTH_PT, name).on_hover_text(word!(
-            language,
-            "They are off at first. Right-click one in the ring to let it join",
-            "Começam desligadas. Clique em uma no anel com o botão direito para ela entrar"
-        ));
+        number_field(ui, &mut spares, 0..=Settings::MAX_SPARES as u32, "", VALUE_WIDTH_PT, (name, language))
+            .on_hover_text(word!(
+                language,
+                "They are off at first. Right-click one in the ring to let it join",
+                "Começam desligadas. Clique em uma no anel com o botão direito para ela entrar"
+            ));
         draft.set_spares(spares as usize);
     });
 }
