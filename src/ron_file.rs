@@ -162,10 +162,11 @@ pub fn parse<T: DeserializeOwned>(text: &str, what: &str, least: &str, deep: &st
         if spanned.code == ron::Error::ExceededRecursionLimit {
             return FileError::new(position, deep);
         }
-        let is_syntax = !matches!(spanned.code, ron::Error::Message(_));
-        if let Some(number) =
-            position.filter(|_| is_syntax).and_then(|position| decimal_comma::find(text, byte_offset(text, position)))
-        {
+        // A number outside its range may be the part before the comma, as in `tube: 0,25`.
+        let is_range = matches!(spanned.code, ron::Error::Message(_));
+        let place = position.map(|position| byte_offset(text, position));
+        let place = place.filter(|&place| !is_range || text[place..].starts_with(','));
+        if let Some(number) = place.and_then(|place| decimal_comma::find(text, place)) {
             let point = number.replace(',', ".");
             return FileError::new(position, &format!("{field}a decimal mark is a point: write {point}, not {number}"));
         }
