@@ -44,10 +44,8 @@ fn paths_that_are_not_utf_8_can_be_read_and_written() {
     succeeds(&[os("export"), &scene, os("--pov"), &name(".pov")]);
     succeeds(&[os("export"), &log, os("--csv"), &name(".csv"), os("--timeline"), &name(".svg")]);
     assert!(succeeds(&[&log]).ends_with(b".png\n"), "a run without a window");
-    let lesson = format!(
-        "Lesson(title: \"A\", about: \"B\", runs: {{\"one\": (scene: \"ball.ron\", size: (32, 24))}}, \
-         steps: [(say: \"C\", run: \"one\", holds: [(figure: Ends, at_least: 1)])])"
-    );
+    let lesson = "Lesson(title: \"A\", about: \"B\", runs: {\"one\": (scene: \"ball.ron\", size: (32, 24))}, \
+         steps: [(say: \"C\", run: \"one\", holds: [(figure: Ends, at_least: 1)])])";
     let inner = directory.path().join(name(""));
     fs::create_dir(&inner).expect("a directory");
     fs::write(inner.join("ball.ron"), SCENE).expect("a file");
