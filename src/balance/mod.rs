@@ -4,9 +4,12 @@
 //! with [`Action`]s, which the driver executes. The [`Strategy`] decides how nodes answer.
 
 pub mod adaptive;
+mod admission;
 mod condition;
 pub mod estimate;
 mod farm;
+mod heartbeat;
+mod leases;
 mod ledger;
 mod message;
 mod parent;
@@ -14,6 +17,7 @@ mod queue;
 mod remedy;
 pub mod ring;
 mod scheduler;
+mod speed_estimate;
 mod static_node;
 mod strategy;
 mod work;
