@@ -8,6 +8,7 @@ mod admission;
 mod condition;
 pub mod estimate;
 mod farm;
+pub mod farm_leases;
 mod heartbeat;
 mod leases;
 mod ledger;

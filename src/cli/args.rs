@@ -151,7 +151,8 @@ pub(super) struct RenderArgs {
     /// The number of nodes [default: one for each speed, else 4; 1 for serial]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub nodes: Option<u16>,
-    /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, ring, adaptive, or rayon
+    /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, farm-leases, ring, adaptive, or
+    /// rayon
     #[arg(long, default_value = "ring")]
     pub strategy: Scheduler,
     /// What executes the run: threads (real time), pairs (two threads for each node, at full speed), or sim (virtual

@@ -168,6 +168,7 @@ fn write_messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Res
             Message::Offer { who, .. } if Party::Node(*who) == *from => (OFFERS, "offer"),
             Message::Offer { .. } => (OFFERS, "hop"),
             Message::Request => (OFFERS, "request"),
+            Message::Join => (OFFERS, "join"),
             Message::Shutdown => (OFFERS, "shutdown"),
             Message::Results(_) => (RESULTS, "results"),
             Message::Again(_) => (ATOMS, "again"),

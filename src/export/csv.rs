@@ -154,6 +154,7 @@ fn sent(from: Party, message: &Message) -> RecordRow {
         Message::Transfer(_) => carried("transfer"),
         Message::Results(_) => carried("results"),
         Message::Request => RecordRow { what: "request", ..RecordRow::default() },
+        Message::Join => RecordRow { what: "join", ..RecordRow::default() },
         Message::Again(_) => carried("again"),
         Message::Wake => RecordRow { what: "wake", ..RecordRow::default() },
         Message::Beat { holds, .. } => {

@@ -115,7 +115,7 @@ pub(super) enum Problem {
     MachineCount(usize),
     #[error("a speed can be 0 to 1")]
     Speed,
-    #[error("only an `adaptive` run has spare machines: the last of its `speeds`, but not all of them")]
+    #[error("only an `adaptive` or `farm-leases` run has spare machines: the last of its `speeds`, but not all of them")]
     Spares,
     #[error("only an `adaptive` run has remedies; leave out `without`, or set `strategy: \"adaptive\"`")]
     NoRemedies,

@@ -210,7 +210,7 @@ impl PlanFile {
         if !self.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)) {
             return Err(InvalidLesson::new(&["speeds"], Problem::Speed));
         }
-        if self.spares >= self.speeds.len() || self.spares > 0 && self.strategy != Strategy::Adaptive {
+        if self.spares >= self.speeds.len() || self.spares > 0 && !self.strategy.survives_losses() {
             return Err(InvalidLesson::new(&["spares"], Problem::Spares));
         }
         if !self.without.is_empty() && self.strategy != Strategy::Adaptive {

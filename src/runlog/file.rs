@@ -152,6 +152,7 @@ mod tests {
         prop_oneof![
             range().prop_map(Message::Band),
             Just(Message::Request),
+            Just(Message::Join),
             range().prop_map(Message::Part),
             (0..NODES, any::<u32>()).prop_map(|(who, done)| Message::offer(who, done)),
             (0..NODES, any::<u32>(), help()).prop_map(|(who, done, help)| Message::Offer {

@@ -6,7 +6,7 @@ use std::time::Duration;
 use thiserror::Error;
 
 use super::Header;
-use crate::balance::{Message, NodeId, Party, Strategy, estimate};
+use crate::balance::{Message, NodeId, Party, estimate};
 use crate::picture::{Atom, Division, QualityError, Size, SizeError};
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
@@ -43,8 +43,8 @@ pub enum InvalidHeader {
     #[error("all machines are spares; at least one must be on")]
     OnlySpares,
     /// No other strategy lets machines join.
-    #[error("only the adaptive ring can have spare machines")]
-    SparesWithoutAdaptiveRing,
+    #[error("only the adaptive ring and the farm with leases can have spare machines")]
+    SparesCannotJoin,
     /// A latency or a handling time is longer than an hour.
     #[error("a message takes longer than an hour")]
     SlowMessages,
@@ -115,8 +115,8 @@ pub(super) fn header(header: &Header) -> Result<(), InvalidHeader> {
     ensure((1..=1024).contains(&header.speeds.len()), InvalidHeader::WrongNumberOfSpeeds)?;
     ensure(usize::from(header.spares) < header.speeds.len(), InvalidHeader::OnlySpares)?;
     ensure(
-        header.spares == 0 || header.rules.strategy == Strategy::Adaptive,
-        InvalidHeader::SparesWithoutAdaptiveRing,
+        header.spares == 0 || header.rules.strategy.survives_losses(),
+        InvalidHeader::SparesCannotJoin,
     )?;
     ensure(header.link.latency <= HOUR && header.handling <= HOUR, InvalidHeader::SlowMessages)?;
     let beat = header.rules.beat;
@@ -207,7 +207,7 @@ impl<'a> Checker<'a> {
             Message::Gone(nodes) => nodes.iter().try_for_each(|id| node(self.header, *id)),
             Message::Failed(atom) => self.atom(*atom),
             Message::Offer { who, .. } => node(self.header, *who),
-            Message::Request | Message::Wake | Message::Shutdown => Ok(()),
+            Message::Request | Message::Join | Message::Wake | Message::Shutdown => Ok(()),
         }
     }
 
@@ -252,6 +252,7 @@ mod tests {
     use super::super::examples;
     use super::super::examples::{at, done, sent};
     use super::*;
+    use crate::balance::Strategy;
 
     /// Checks the records of a run with one node up to the first that is refused.
     fn check(records: &[Record]) -> Result<(), InvalidRecord> {

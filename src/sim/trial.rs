@@ -74,8 +74,8 @@ impl Trial {
         match change {
             Change::Strategy(strategy) => {
                 header.rules.strategy = strategy;
-                if header.rules.strategy != Strategy::Adaptive {
-                    // Only the adaptive ring lets spare machines in.
+                if !header.rules.strategy.survives_losses() {
+                    // The other strategies do not let spare machines in.
                     header.speeds.truncate(header.speeds.len() - usize::from(std::mem::take(&mut header.spares)));
                 }
             }
@@ -214,12 +214,13 @@ mod tests {
     }
 
     #[test]
-    fn spares_stay_only_in_the_adaptive_ring() {
+    fn spares_stay_only_where_machines_are_let_in() {
         let mut trial = Trial::new(header(&[1.0, 1.0, 1.0]), Vec::new());
         trial = trial.with(Change::Strategy(Strategy::Adaptive));
         trial.header.spares = 1;
         let ring = trial.with(Change::Strategy(Strategy::Ring)).header;
         assert_eq!((ring.speeds.len(), ring.spares, ring.cores), (2, 0, 2));
+        assert_eq!(trial.with(Change::Strategy(Strategy::FarmLeases)).header.spares, 1);
         let one = trial.with(Change::Nodes(1)).header;
         assert_eq!((one.speeds.len(), one.spares), (1, 0));
     }

@@ -7,6 +7,7 @@ mod watched;
 
 mod adaptive_rules;
 mod failing_workers;
+mod farm_leases_rules;
 mod protocol_rules;
 mod random_runs;
 mod retrace;

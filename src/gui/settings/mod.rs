@@ -40,7 +40,7 @@ pub struct Settings {
     /// Speed of each machine, as a fraction of the reference machine, 0 to 1.
     pub speeds: Vec<f64>,
     /// Speed of each spare machine, at most [`Settings::MAX_SPARES`]. Spare machines are off at first and may join the
-    /// adaptive ring.
+    /// adaptive ring or the farm with leases.
     pub spares: Vec<f64>,
     /// Remedies of the adaptive ring.
     pub remedies: Remedies,
@@ -209,7 +209,7 @@ impl Settings {
                 }
                 self.part = strategy.usual_part(self.division(), self.speeds.len());
                 self.strategy = strategy;
-                self.set_spares(if self.strategy == Strategy::Adaptive { 1 } else { 0 });
+                self.set_spares(if self.strategy.survives_losses() { 1 } else { 0 });
             }
         }
     }

@@ -237,6 +237,11 @@ fn speed(language: Language, node: NodeId, speed: f64, effect: SpeedEffect) -> S
         SpeedEffect::AsksLess => Some(word!(language, "it will ask less often", "vai pedir menos vezes")),
         SpeedEffect::AsksMore => Some(word!(language, "it will ask more often", "vai pedir mais vezes")),
         SpeedEffect::KeepsPart => Some(word!(language, "it keeps its atoms", "fica com seus átomos")),
+        SpeedEffect::PartReturns => Some(word!(
+            language,
+            "after a long time the parent gives its atoms out again",
+            "depois de muito tempo o pai dá de novo seus átomos"
+        )),
         SpeedEffect::OthersHelp => {
             Some(word!(language, "the others will take over its work", "as outras vão assumir seu trabalho"))
         }
@@ -259,6 +264,11 @@ fn paused(language: Language, node: NodeId, atoms: u32, effect: PauseEffect) -> 
         PauseEffect::KeepsPart => {
             say!(language, "{paused} and keeps the {atoms} of its part", "{paused} e fica com {atoms} de sua parte")
         }
+        PauseEffect::PartReturns => say!(
+            language,
+            "{paused} with {atoms}: after a long time the parent gives them out again",
+            "{paused} com {atoms}: depois de muito tempo o pai os dá de novo"
+        ),
         PauseEffect::NobodyHelps => say!(
             language,
             "{paused} with {atoms}: nobody will take over its work",

@@ -114,6 +114,8 @@ pub enum SpeedEffect {
     AsksMore,
     /// The machine keeps its atoms.
     KeepsPart,
+    /// The parent will give the machine's atoms out again, after a long time.
+    PartReturns,
     /// The other machines take over the machine's work.
     OthersHelp,
     /// The machine can take more work.
@@ -127,6 +129,8 @@ pub enum PauseEffect {
     None,
     /// The machine keeps its atoms: they are its part of a farm.
     KeepsPart,
+    /// The parent will give the machine's part out again, after a long time.
+    PartReturns,
     /// The atoms wait: no machine takes over atoms of a band.
     NobodyHelps,
     /// The atoms are in the machine's pipe and stay there.
@@ -225,6 +229,7 @@ impl Happening {
             }
             Ordering::Less if state.scheduler.is_fixed() => SpeedEffect::NobodyHelps,
             Ordering::Greater if state.scheduler.is_fixed() => SpeedEffect::BandSooner,
+            _ if state.scheduler.is_farm() && speed == 0.0 && state.has(Remedy::Leases) => SpeedEffect::PartReturns,
             _ if state.scheduler.is_farm() && speed == 0.0 => SpeedEffect::KeepsPart,
             Ordering::Less if state.scheduler.is_farm() => SpeedEffect::AsksLess,
             Ordering::Greater if state.scheduler.is_farm() => SpeedEffect::AsksMore,
@@ -243,6 +248,7 @@ impl Happening {
         let atoms = machine.left();
         let effect = match atoms {
             0 if !state.scheduler.is_ring() && state.scheduler != Scheduler::WorkStealing => PauseEffect::None,
+            _ if state.scheduler.is_farm() && state.has(Remedy::Leases) => PauseEffect::PartReturns,
             _ if state.scheduler.is_farm() => PauseEffect::KeepsPart,
             _ if state.scheduler.is_fixed() => PauseEffect::NobodyHelps,
             1..=PIPE_ATOMS if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,

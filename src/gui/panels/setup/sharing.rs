@@ -88,7 +88,7 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             number_field(ui, &mut draft.part, 1..=10_000, suffix, VALUE_WIDTH_PT, name);
         });
     });
-    if is_adaptive {
+    if on.survives_losses() {
         spares(ui, draft, look, language);
     }
 }
