@@ -215,7 +215,7 @@ impl Worker {
             }
             Command::Condition { condition, .. } => return self.set_condition(condition, handler),
             Command::Delay { from, .. } => return self.endpoint.record_delay(from),
-            Command::Link { .. } | Command::Latency(_) => {
+            Command::Link { .. } | Command::Latency(_) | Command::OwnLatency { .. } => {
                 unreachable!("the parent records commands to the network")
             }
         };

@@ -276,6 +276,10 @@ fn write_instants(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Res
             RecordKind::Condition { node, condition } => (Some(*node), condition_words(*condition).into()),
             RecordKind::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
             RecordKind::LatencySet { latency } => (None, format!("latency {latency:?}")),
+            RecordKind::OwnLatencySet { party, latency } => {
+                let latency = latency.map_or("none".into(), |latency| format!("{latency:?}"));
+                (None, format!("own latency of {}: {latency}", party_name(*party)))
+            }
             RecordKind::Finished => (None, "the picture is complete".into()),
             _ => continue,
         };

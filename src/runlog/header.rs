@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::Metadata;
+use super::{LinkSettings, Metadata};
 use crate::balance::{NodeId, Remedies, Remedy, Rules, Scheduler, Strategy};
 use crate::picture::{Division, Quality, Size};
 
@@ -88,7 +88,7 @@ impl Header {
             driver: Driver::Threads,
             rules: Rules::usual(strategy, division, speeds.len()),
             pace: 1.0,
-            link: LinkSettings { latency: Duration::ZERO, bandwidth: None, shared: false },
+            link: LinkSettings::default(),
             handling: Duration::ZERO,
             cores: speeds.len(),
             speeds,
@@ -132,15 +132,4 @@ impl Header {
 
 fn is_zero(count: &NodeId) -> bool {
     *count == 0
-}
-
-/// Latency and bandwidth of the links between any two parties, the parent included.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LinkSettings {
-    /// Travel time of a message's last byte.
-    pub latency: Duration,
-    /// Bytes per second; `None` is unlimited.
-    pub bandwidth: Option<f64>,
-    /// Whether all parties share one wire, as on an Ethernet of 1997; else each pair has its own.
-    pub shared: bool,
 }

@@ -36,7 +36,7 @@ pub enum Change {
     Without(Remedy),
     /// Another number of pixels in an atom.
     Atom(u32),
-    /// Another latency of all links.
+    /// Another latency of all nodes that have none of their own.
     Latency(Duration),
     /// Another time that the parent is busy with each message.
     Handling(Duration),
@@ -50,6 +50,7 @@ impl Trial {
             RecordKind::Paused { node } => Some(Command::Pause { node, paused: true }),
             RecordKind::Resumed { node } => Some(Command::Pause { node, paused: false }),
             RecordKind::LatencySet { latency } => Some(Command::Latency(latency)),
+            RecordKind::OwnLatencySet { party, latency } => Some(Command::OwnLatency { party, latency }),
             RecordKind::Condition { node, condition } => Some(Command::Condition { node, condition }),
             RecordKind::Link { one, other, cut } => Some(Command::Link { one, other, cut }),
             RecordKind::Delayed { from, to, until } => Some(Command::Delay { from, to, by: until.since(at) }),
@@ -112,6 +113,7 @@ impl Trial {
             header.rules.beat = Rules::beat_for(header.handling, header.speeds.len());
         }
         header.cores = header.speeds.len();
+        header.link.trim(header.speeds.len());
         trial
     }
 

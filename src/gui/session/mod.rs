@@ -382,6 +382,13 @@ impl Session {
         if self.settings.latency != before.latency {
             self.stage.source.command(Command::Latency(self.settings.latency_time()));
         }
+        for party in self.settings.parties() {
+            let latency = self.settings.own_link(party).latency;
+            if latency != before.own_link(party).latency {
+                let latency = latency.map(|ms| Duration::from_millis(ms.into()));
+                self.stage.source.command(Command::OwnLatency { party, latency });
+            }
+        }
         before
     }
 

@@ -7,7 +7,7 @@ use fastrand::Rng;
 use super::super::random::uniform;
 use crate::balance::{Condition, NodeId, Party, Rules, Strategy};
 use crate::picture::Size;
-use crate::runlog::{Driver, Header, LinkSettings};
+use crate::runlog::{Driver, Header};
 use crate::scenario::{Command, Script};
 use crate::time::Time;
 
@@ -49,7 +49,7 @@ impl ChaosPlan {
             // For the same reason a whole picture's results must not delay a message too long.
             let slowest = if faultless { 6.5 } else { 5.0 };
             let bandwidth = Some(10f64.powf(uniform(&mut rng, slowest, 8.0)));
-            header.link = LinkSettings { bandwidth, shared: rng.bool(), ..header.link };
+            (header.link.bandwidth, header.link.shared) = (bandwidth, rng.bool());
             let longest = if faultless { 100 } else { 500 };
             header.handling = Duration::from_micros(rng.u64(0..longest));
         }

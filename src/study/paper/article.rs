@@ -71,6 +71,7 @@ impl Network {
                 latency: Duration::from_secs_f64(self.latency * scale),
                 bandwidth: Some(self.bandwidth / scale),
                 shared: true,
+                ..LinkSettings::default()
             },
             rules: Rules {
                 beat: Rules::beat_for(Duration::from_secs_f64(self.handling * scale), header.speeds.len()),

@@ -1,8 +1,10 @@
 //! Sentences for the events of a run.
 
+use std::time::Duration;
+
 use super::happening::{Happening, OfferReason, PauseEffect, Retirement, SpeedEffect};
 use super::transfer_sentences;
-use crate::balance::{NodeId, Scheduler, Strategy};
+use crate::balance::{NodeId, Party, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::view::text::format::{atoms_words, counted, duration, fraction, names, node_name};
 
@@ -80,7 +82,33 @@ impl Happening {
                     say!(language, "{what} now takes {takes}", "{what} agora leva {takes}")
                 }
             }
+            &Self::OwnLatency { party, latency } => own_latency(language, party, latency),
             Self::Failure(failure) => failure.sentence(language),
+        }
+    }
+}
+
+fn own_latency(language: Language, party: Party, latency: Option<Duration>) -> String {
+    let whose = match party {
+        Party::Parent => word!(language, "the parent", "o pai").to_owned(),
+        Party::Node(node) => {
+            let name = node_name(node);
+            say!(language, "machine {name}", "a máquina {name}")
+        }
+    };
+    match latency {
+        None => say!(
+            language,
+            "A message from or to {whose} takes no longer than usual now",
+            "Uma mensagem entre {whose} e as outras não demora mais que o usual agora"
+        ),
+        Some(latency) => {
+            let takes = duration(latency, language);
+            say!(
+                language,
+                "A message from or to {whose} now takes at least {takes}",
+                "Uma mensagem entre {whose} e as outras agora leva ao menos {takes}"
+            )
         }
     }
 }

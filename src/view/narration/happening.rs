@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::failure::Failure;
-use crate::balance::{NodeId, PIPE_ATOMS, Remedy, Scheduler};
+use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy, Scheduler};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
 use crate::view::state::node_state::NodeState;
@@ -54,8 +54,10 @@ pub enum Happening {
     Paused { node: NodeId, atoms: u32, effect: PauseEffect },
     /// A machine's pause is over; its speed may still be 0.
     Resumed { node: NodeId, is_stopped: bool },
-    /// The latency of all links is changed.
+    /// The latency of all nodes that have none of their own is changed.
     Latency { latency: Duration, is_hop: bool },
+    /// A party's own latency is changed.
+    OwnLatency { party: Party, latency: Option<Duration> },
     /// A machine or a link fails, or the ring recovers.
     Failure(Failure),
 }
@@ -151,6 +153,7 @@ impl Happening {
             RecordKind::Paused { node } => Self::paused(state, *node),
             RecordKind::Resumed { node } => Self::resumed(state, *node),
             RecordKind::LatencySet { latency } => Self::latency(state, *latency),
+            RecordKind::OwnLatencySet { party, latency } => Self::OwnLatency { party: *party, latency: *latency },
             RecordKind::Condition { node, .. } => Self::Failure(Failure::condition(state, *node)?),
             RecordKind::Delayed { from, to, until } => {
                 Self::Failure(Failure::Delayed { from: *from, to: *to, by: until.since(record.at) })
@@ -263,7 +266,7 @@ impl Happening {
         Self::Resumed { node, is_stopped: machine(state, node).is_some_and(|machine| machine.speed == 0.0) }
     }
 
-    /// Describes a new latency of all links.
+    /// Describes a new latency of all nodes.
     pub(crate) fn latency(state: &RunState, latency: Duration) -> Self {
         Self::Latency { latency, is_hop: state.scheduler.is_ring() }
     }

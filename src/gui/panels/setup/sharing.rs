@@ -3,6 +3,7 @@
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Button, ComboBox, Popup, PopupCloseBehavior, Response, RichText, TextWrapMode, Ui, WidgetInfo, vec2};
 
+use super::own_links::own_links;
 use super::{VALUE_WIDTH_PT, explanation, high_row, labelled_row};
 use crate::balance::{Remedy, Scheduler, Strategy};
 use crate::gui::settings::Settings;
@@ -116,6 +117,7 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
                 "An Ethernet of 1997 carried at most 1250 kB/s. 0 means no limit",
                 "Uma Ethernet de 1997 levava no máximo 1250 kB/s. 0 significa sem limite"
             ));
+            own_links(ui, draft, look, language);
         });
         if draft.bandwidth > 0 {
             let text = word!(language, "All share one wire", "Todos num só cabo");

@@ -62,6 +62,7 @@ impl Narrator {
                 | RecordKind::Paused { .. }
                 | RecordKind::Resumed { .. }
                 | RecordKind::LatencySet { .. }
+                | RecordKind::OwnLatencySet { .. }
                 | RecordKind::Condition { .. }
         );
         let event = if is_user_change {
@@ -160,7 +161,9 @@ fn weigh(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
             ((1, 0), Happening::offer(state, *from, false, message.own_offer(*from)?))
         }
         // A node that is called back or let in gets an empty band.
-        RecordKind::Sent { message: Message::Band(band), .. } if band.is_empty() && state.scheduler.survives_losses() => {
+        RecordKind::Sent { message: Message::Band(band), .. }
+            if band.is_empty() && state.scheduler.survives_losses() =>
+        {
             return None;
         }
         // A machine that has started afresh gets a part of the farm with the scene.
