@@ -124,10 +124,17 @@ pub enum RecordKind {
         /// The atom.
         atom: Atom,
     },
-    /// The latency of all links was changed, for messages that leave from now on.
+    /// The latency of all nodes that have none of their own was changed, for messages that leave from now on.
     LatencySet {
         /// The new latency.
         latency: Duration,
+    },
+    /// A party's own latency was changed, for messages that leave from now on.
+    OwnLatencySet {
+        /// The party.
+        party: Party,
+        /// The new latency; `None` if the party has none of its own any more.
+        latency: Option<Duration>,
     },
     /// A node's own offer came back: the node makes no more offers, or, in the adaptive ring, sleeps until it is woken.
     Retired {

@@ -50,8 +50,16 @@ pub enum Command {
         /// Length of the delay, from now.
         by: Duration,
     },
-    /// Sets the latency of all links for messages that leave from now on. None overtakes an earlier one.
+    /// Sets the latency of all nodes that have none of their own, for messages that leave from now on. None overtakes
+    /// an earlier one.
     Latency(Duration),
+    /// Sets a party's own latency, or with `None` takes it away, in the same way.
+    OwnLatency {
+        /// The party.
+        party: Party,
+        /// Its own latency.
+        latency: Option<Duration>,
+    },
 }
 
 impl Command {

@@ -31,6 +31,8 @@ pub enum Message {
     /// To the parent: in a farm, the sender has no more atoms and asks for some; in the adaptive ring, it has started
     /// afresh and asks to be let in.
     Request,
+    /// Farm with leases, to the parent: the sender has started afresh, and asks for the scene.
+    Join,
     /// In a farm: the parent's answer, consecutive atoms; an empty range says that there are no more.
     Part(Range<Atom>),
     /// The token: node `who` has no more atoms, and has traced `done` atoms since the start.
@@ -47,12 +49,12 @@ pub enum Message {
     Transfer(Vec<Range<Atom>>),
     /// Traced atoms on their way to the parent, in the order in which they were traced.
     Results(Vec<Range<Atom>>),
-    /// Adaptive: atoms to trace once more, since the node that has them is late or lost. They may still be traced
-    /// there; the first result counts.
+    /// Adaptive ring and farm with leases: atoms to trace once more, since the node that has them is late or lost. They
+    /// may still be traced there; the first result counts.
     Again(Vec<Range<Atom>>),
     /// Adaptive: the sender has atoms to give, and the receiver sleeps, as far as the sender knows.
     Wake,
-    /// Adaptive: a node's heartbeat to the parent.
+    /// Adaptive ring and farm with leases: a node's heartbeat to the parent.
     Beat {
         /// The atoms that the node holds and vouches for: those in the queue, those in the pipe, and those traced but
         /// not sent.
@@ -64,9 +66,11 @@ pub enum Message {
     },
     /// Adaptive, from the parent: the nodes that are not in the ring; all others are.
     Gone(Vec<NodeId>),
-    /// Adaptive, from the parent: atoms that the receiver holds and that are in the picture already.
+    /// Adaptive ring and farm with leases, from the parent: atoms that the receiver holds and that are in the picture
+    /// already.
     Placed(Vec<Range<Atom>>),
-    /// Adaptive: the sender's worker has failed to trace this atom; the sender does not hold it any more.
+    /// Adaptive ring and farm with leases: the sender's worker has failed to trace this atom; the sender does not hold
+    /// it any more.
     Failed(Atom),
     /// The parent's last message.
     Shutdown,
@@ -118,7 +122,7 @@ impl Message {
         match self {
             Self::Band(atoms) | Self::Part(atoms) => slice::from_ref(atoms),
             Self::Transfer(ranges) | Self::Results(ranges) | Self::Again(ranges) => ranges,
-            Self::Offer { .. } | Self::Request | Self::Shutdown => &[],
+            Self::Offer { .. } | Self::Request | Self::Join | Self::Shutdown => &[],
             Self::Wake | Self::Beat { .. } | Self::Gone(_) | Self::Placed(_) | Self::Failed(_) => &[],
         }
     }
@@ -136,7 +140,7 @@ impl Message {
                 Self::Band(_) => RANGE + scene_bytes,
                 Self::Part(_) => RANGE,
                 Self::Offer { help: Some(_), .. } => DETAILS,
-                Self::Offer { .. } | Self::Request | Self::Wake | Self::Shutdown => 0,
+                Self::Offer { .. } | Self::Request | Self::Join | Self::Wake | Self::Shutdown => 0,
                 Self::Transfer(ranges) | Self::Again(ranges) | Self::Placed(ranges) => RANGE * ranges.len() as u64,
                 Self::Beat { holds, .. } => RANGE * (1 + holds.len() as u64),
                 Self::Gone(nodes) => NODE * nodes.len() as u64,
@@ -172,8 +176,8 @@ pub enum Event {
         /// The CPU time that it took; at full speed an estimate, since only the record gets the final value.
         cost: Duration,
     },
-    /// The node's worker has failed to trace an atom, which has left the pipe. Only a node of the adaptive ring handles
-    /// this.
+    /// The node's worker has failed to trace an atom, which has left the pipe. Only a node of the adaptive ring or
+    /// of the farm with leases handles this.
     AtomFailed {
         /// The atom.
         atom: Atom,

@@ -4,9 +4,13 @@
 //! with [`Action`]s, which the driver executes. The [`Strategy`] decides how nodes answer.
 
 pub mod adaptive;
+mod admission;
 mod condition;
 pub mod estimate;
 mod farm;
+pub mod farm_leases;
+mod heartbeat;
+mod leases;
 mod ledger;
 mod message;
 mod parent;
@@ -14,6 +18,7 @@ mod queue;
 mod remedy;
 pub mod ring;
 mod scheduler;
+mod speed_estimate;
 mod static_node;
 mod strategy;
 mod work;

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::estimate;
 use super::farm::Parts;
+use super::farm_leases::Lessor;
 use super::ledger::{Ledger, announce_gone};
 use super::message::{Action, Event, Message, NodeId, Party};
 use super::remedy::Remedy;
@@ -36,6 +37,8 @@ enum Assignment {
     Estimate,
     /// A part for each node that asks.
     Farm(Parts),
+    /// A part for each node that asks, and leases on the parts, since machines may be lost.
+    FarmWithLeases(Lessor),
     /// Equal bands, and a ledger of nodes and atoms, since machines may be lost.
     WithLeases(Ledger),
     /// Equal bands in an adaptive ring without leases. The parent knows only the nodes that have not joined yet.
@@ -60,6 +63,7 @@ impl Parent {
             Strategy::StaticEstimate => Assignment::Estimate,
             Strategy::Farm => farm(false),
             Strategy::FarmBySpeed => farm(true),
+            Strategy::FarmLeases => Assignment::FarmWithLeases(Lessor::new(rules, (nodes, spares), missing)),
             Strategy::Adaptive => {
                 if rules.remedies.has(Remedy::Leases) {
                     Assignment::WithLeases(Ledger::new(rules.beat, (nodes, spares), missing))
@@ -71,17 +75,19 @@ impl Parent {
         Self { assignment, division, nodes, spares, placed: vec![false; missing as usize], missing }
     }
 
-    /// Handles `event` at the time `now` and appends its answer to `actions`. The time matters only in the adaptive
-    /// ring.
+    /// Handles `event` at the time `now` and appends its answer to `actions`. The time matters only where
+    /// machines may be lost.
     ///
     /// # Panics
-    /// If the event is impossible: an atom that is already placed (except in the adaptive ring), or a message that no
-    /// node of this strategy sends.
+    /// If the event is impossible: an atom that is already placed (except where machines may be lost), or a message
+    /// that no node of this strategy sends.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
-        if let (Assignment::WithLeases(ledger), Event::Message { from: Party::Node(node), .. }) =
-            (&mut self.assignment, &event)
-        {
-            ledger.note_heard(now, *node, actions);
+        if let Event::Message { from: Party::Node(node), .. } = event {
+            match &mut self.assignment {
+                Assignment::WithLeases(ledger) => ledger.note_heard(now, node, actions),
+                Assignment::FarmWithLeases(lessor) => lessor.note_heard(node),
+                _ => {}
+            }
         }
         match event {
             Event::Started => {
@@ -94,6 +100,10 @@ impl Parent {
                     Assignment::Bands => hand_out_bands(self.division.bands(nodes), actions),
                     Assignment::Estimate => actions.push(Action::Estimate),
                     Assignment::Farm(parts) => hand_out_bands((0..self.nodes).map(|node| parts.next(node)), actions),
+                    Assignment::FarmWithLeases(lessor) => {
+                        lessor.start(now, actions);
+                        actions.push(Action::SetTimer(lessor.next_check(now)));
+                    }
                     Assignment::WithLeases(ledger) => {
                         hand_out_bands(self.division.bands(nodes), actions);
                         ledger.start(now, actions);
@@ -118,10 +128,18 @@ impl Parent {
             }
             Event::Message { from: Party::Node(node), message } => self.answer(now, node, message, actions),
             Event::Timer => {
-                if let Assignment::WithLeases(ledger) = &mut self.assignment {
-                    ledger.check(now, &self.placed, actions);
-                    actions.push(Action::SetTimer(ledger.next_check(now)));
-                }
+                let next = match &mut self.assignment {
+                    Assignment::WithLeases(ledger) => {
+                        ledger.check(now, &self.placed, actions);
+                        ledger.next_check(now)
+                    }
+                    Assignment::FarmWithLeases(lessor) => {
+                        lessor.check(now, &self.placed, actions);
+                        lessor.next_check(now)
+                    }
+                    _ => return,
+                };
+                actions.push(Action::SetTimer(next));
             }
             other => unreachable!("a parent is never handed {other:?}"),
         }
@@ -133,6 +151,14 @@ impl Parent {
             (Assignment::Farm(parts), Message::Request) => {
                 let message = Message::Part(parts.next(node));
                 actions.push(Action::Send { to: Party::Node(node), message });
+            }
+            (Assignment::FarmWithLeases(lessor), Message::Request) => lessor.request(now, node, &self.placed, actions),
+            (Assignment::FarmWithLeases(lessor), Message::Join) => lessor.join(now, node, actions),
+            (Assignment::FarmWithLeases(lessor), Message::Beat { holds, idle, sent }) => {
+                lessor.beat(now, (node, sent), (&holds, idle), &self.placed, actions);
+            }
+            (Assignment::FarmWithLeases(lessor), Message::Failed(atom)) => {
+                lessor.atom_failed(now, atom, &self.placed, actions);
             }
             (Assignment::WithLeases(ledger), Message::Request) => ledger.invite(node, actions),
             // Without a ledger the atoms that it had stay lost, but it may help with the others.
@@ -156,10 +182,11 @@ impl Parent {
     fn place(&mut self, atom: Atom) {
         let placed = &mut self.placed[atom as usize];
         let again = std::mem::replace(placed, true);
-        assert!(
-            !again || matches!(self.assignment, Assignment::WithLeases(_) | Assignment::WithoutLeases(_)),
-            "atom {atom} was traced twice"
+        let may_repeat = matches!(
+            self.assignment,
+            Assignment::WithLeases(_) | Assignment::WithoutLeases(_) | Assignment::FarmWithLeases(_)
         );
+        assert!(!again || may_repeat, "atom {atom} was traced twice");
         self.missing -= u32::from(!again);
     }
 

@@ -17,12 +17,13 @@ pub enum Scheduler {
 
 impl Scheduler {
     /// All schedulers, in the order in which the user sees them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Protocol(Strategy::Serial),
         Self::Protocol(Strategy::Static),
         Self::Protocol(Strategy::StaticEstimate),
         Self::Protocol(Strategy::Farm),
         Self::Protocol(Strategy::FarmBySpeed),
+        Self::Protocol(Strategy::FarmLeases),
         Self::Protocol(Strategy::Ring),
         Self::Protocol(Strategy::Adaptive),
         Self::WorkStealing,
@@ -44,6 +45,11 @@ impl Scheduler {
     /// Returns whether it is the adaptive ring.
     pub fn is_adaptive(&self) -> bool {
         *self == Self::Protocol(Strategy::Adaptive)
+    }
+
+    /// Returns whether a machine that starts afresh is let in ([`Strategy::survives_losses`]).
+    pub fn survives_losses(&self) -> bool {
+        matches!(self, Self::Protocol(strategy) if strategy.survives_losses())
     }
 
     /// Returns whether nodes ask the parent for parts.

@@ -11,7 +11,7 @@ use thiserror::Error;
 use super::message::{Action, Event, NodeId};
 use super::remedy::Remedies;
 use super::work::Work;
-use super::{adaptive, farm, ring, static_node};
+use super::{adaptive, farm, farm_leases, ring, static_node};
 use crate::picture::Division;
 use crate::time::Time;
 
@@ -29,6 +29,8 @@ pub enum Strategy {
     Farm,
     /// A farm with smaller parts for slower nodes (§6.2).
     FarmBySpeed,
+    /// A farm in which the parts of a lost machine are given out again ([`farm_leases`]).
+    FarmLeases,
     /// The article's ring (§7).
     Ring,
     /// The adaptive ring: the article's ring with [`Remedies`] for its weaknesses.
@@ -49,7 +51,7 @@ pub struct Rules {
     /// Longest time that a traced atom waits for others, to travel to the parent with them; `None`: until its node has
     /// no atoms left, as in the article (§7).
     pub batch: Option<Duration>,
-    /// Interval of a node's heartbeat in the adaptive ring.
+    /// Interval of a node's heartbeat in the adaptive ring and in the farm with leases.
     #[serde(default = "usual_beat")]
     pub beat: Duration,
     /// The remedies of the adaptive ring.
@@ -63,8 +65,16 @@ fn usual_beat() -> Duration {
 
 impl Strategy {
     /// All strategies, in the order in which the user sees them.
-    pub const ALL: [Self; 7] =
-        [Self::Serial, Self::Static, Self::StaticEstimate, Self::Farm, Self::FarmBySpeed, Self::Ring, Self::Adaptive];
+    pub const ALL: [Self; 8] = [
+        Self::Serial,
+        Self::Static,
+        Self::StaticEstimate,
+        Self::Farm,
+        Self::FarmBySpeed,
+        Self::FarmLeases,
+        Self::Ring,
+        Self::Adaptive,
+    ];
 
     /// Returns the name on the command line and in files.
     pub fn name(&self) -> &'static str {
@@ -74,6 +84,7 @@ impl Strategy {
             Self::StaticEstimate => "static-estimate",
             Self::Farm => "farm",
             Self::FarmBySpeed => "farm-by-speed",
+            Self::FarmLeases => "farm-leases",
             Self::Ring => "ring",
             Self::Adaptive => "adaptive",
         }
@@ -81,12 +92,18 @@ impl Strategy {
 
     /// Returns whether nodes ask the parent for parts.
     pub fn is_farm(&self) -> bool {
-        matches!(self, Self::Farm | Self::FarmBySpeed)
+        matches!(self, Self::Farm | Self::FarmBySpeed | Self::FarmLeases)
     }
 
     /// Returns whether nodes offer help along a ring.
     pub fn is_ring(&self) -> bool {
         matches!(self, Self::Ring | Self::Adaptive)
+    }
+
+    /// Returns whether a machine that starts afresh is let in, and a worker that fails does not end the run. Lost atoms
+    /// are handed out again as well, unless the adaptive ring runs without [`Leases`](super::Remedy::Leases).
+    pub fn survives_losses(&self) -> bool {
+        matches!(self, Self::FarmLeases | Self::Adaptive)
     }
 
     /// Returns the default of [`Rules::part`]: 1 in a ring; in a farm the size that makes about 16 parts for each node.
@@ -151,6 +168,7 @@ pub struct Node {
 enum Role {
     Static(static_node::StaticNode),
     Farm(farm::FarmNode),
+    FarmLeases(Box<farm_leases::LeasedFarmNode>),
     Ring(ring::RingNode),
     Adaptive(Box<adaptive::AdaptiveNode>),
 }
@@ -164,6 +182,7 @@ impl Node {
                 Role::Static(static_node::StaticNode::new(work))
             }
             Strategy::Farm | Strategy::FarmBySpeed => Role::Farm(farm::FarmNode::new(work)),
+            Strategy::FarmLeases => Role::FarmLeases(Box::new(farm_leases::LeasedFarmNode::new(rules))),
             Strategy::Ring => Role::Ring(ring::RingNode::new(id, nodes, rules.part, work)),
             Strategy::Adaptive => Role::Adaptive(Box::new(adaptive::AdaptiveNode::new(id, nodes, rules))),
         };
@@ -176,10 +195,11 @@ impl Node {
     /// If the event is impossible: no parent or node of the same run can have sent it.
     pub fn handle(&mut self, now: Time, event: Event, actions: &mut Vec<Action>) {
         match &mut self.role {
-            // Only the adaptive ring lets a machine in that has started afresh.
+            // The other strategies do not let a machine in that has started afresh.
             Role::Static(_) | Role::Farm(_) | Role::Ring(_) if event == Event::Started => {}
             Role::Static(node) => node.handle(now, event, actions),
             Role::Farm(node) => node.handle(now, event, actions),
+            Role::FarmLeases(node) => node.handle(now, event, actions),
             Role::Ring(node) => node.handle(now, event, actions),
             Role::Adaptive(node) => node.handle(now, event, actions),
         }

@@ -169,7 +169,8 @@ pub(super) struct RenderArgs {
     /// The number of nodes [default: one for each speed, else 4; 1 for serial]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub nodes: Option<u16>,
-    /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, ring, adaptive, or rayon
+    /// How the atoms are shared: serial, static, static-estimate, farm, farm-by-speed, farm-leases, ring, adaptive, or
+    /// rayon
     #[arg(long, default_value = "ring")]
     pub strategy: Scheduler,
     /// What executes the run: threads (real time), pairs (two threads for each node, at full speed), or sim (virtual
@@ -195,12 +196,19 @@ pub(super) struct RenderArgs {
     /// Adaptive ring: the remedies to leave out: speed, floor, early, wake, copies, shortcuts, leases [default: none]
     #[arg(long, value_name = "REMEDY,REMEDY", value_delimiter = ',')]
     pub without: Vec<Remedy>,
-    /// The latency of a message, in milliseconds
-    #[arg(long, value_name = "MS", default_value = "0", value_parser = milliseconds)]
-    pub latency: Duration,
-    /// The bandwidth of a link, in bytes per second [default: unlimited]
+    /// The latency of each node in milliseconds, or one number for all; a message takes the larger one of its two ends
+    #[arg(long, value_name = "MS,MS", default_value = "0", value_delimiter = ',', value_parser = milliseconds)]
+    pub latency: Vec<Duration>,
+    /// The bandwidth of each node in bytes per second, or one number for all; a message takes the smaller one of its
+    /// two ends [default: unlimited]
+    #[arg(long, value_name = "BYTES_PER_S,BYTES_PER_S", value_delimiter = ',', value_parser = bandwidth)]
+    pub bandwidth: Vec<f64>,
+    /// The parent's own latency in milliseconds [default: none; the node at the other end decides]
+    #[arg(long, value_name = "MS", value_parser = milliseconds)]
+    pub parent_latency: Option<Duration>,
+    /// The parent's own bandwidth in bytes per second [default: none; the node at the other end decides]
     #[arg(long, value_name = "BYTES_PER_S", value_parser = bandwidth)]
-    pub bandwidth: Option<f64>,
+    pub parent_bandwidth: Option<f64>,
     /// Send all messages over one shared wire, as on an old Ethernet, instead of one link for each pair
     #[arg(long)]
     pub shared_wire: bool,

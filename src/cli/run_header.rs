@@ -5,7 +5,7 @@ use crate::balance::{Rules, Scheduler, Strategy};
 use crate::driver::{auto_pace, cores};
 use crate::gui::SpeedPreset;
 use crate::picture::{Division, Size};
-use crate::runlog::{Driver, Header, LinkSettings, Metadata};
+use crate::runlog::{Driver, Header, LinkSettings, Metadata, OwnLink};
 use crate::scene::Opened;
 
 /// Builds the header of a run with these arguments.
@@ -32,7 +32,8 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
             return Err(format!("rayon runs only with --driver threads, not with --driver {}", other.name()));
         }
     };
-    let travels = !args.latency.is_zero() || args.bandwidth.is_some() || args.shared_wire || !args.handling.is_zero();
+    let link = link(args, speeds.len())?;
+    let travels = link != LinkSettings::default() || !args.handling.is_zero();
     if driver == Driver::WorkStealing && travels {
         return Err("--latency, --bandwidth, --shared-wire and --handling do not apply to rayon; leave them out".into());
     }
@@ -68,7 +69,7 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         pace,
         speeds,
         spares: 0,
-        link: LinkSettings { latency: args.latency, bandwidth: args.bandwidth, shared: args.shared_wire },
+        link,
         handling: args.handling,
         cores,
         caption: Metadata { title: args.title.clone(), memo: args.memo.clone(), ..machine },
@@ -77,6 +78,23 @@ pub(super) fn header(args: &RenderArgs, opened: &Opened) -> Result<Header, Strin
         return Err("--driver pairs runs at full speed; leave out --speeds, --seed and --pace".into());
     }
     Ok(header)
+}
+
+/// Returns the network, with what nodes and parent have of their own.
+///
+/// # Errors
+/// A sentence if the number of latencies or bandwidths does not fit the number of nodes.
+fn link(args: &RenderArgs, nodes: usize) -> Result<LinkSettings, String> {
+    for (count, what) in [(args.latency.len(), "latencies"), (args.bandwidth.len(), "bandwidths")] {
+        if count > 1 && count != nodes {
+            return Err(format!("there are {nodes} nodes but {count} {what}; give each node one, or one for all"));
+        }
+    }
+    let parent = OwnLink { latency: args.parent_latency, bandwidth: args.parent_bandwidth };
+    let mut link = LinkSettings { shared: args.shared_wire, parent, ..LinkSettings::default() };
+    link.set_latencies(&args.latency);
+    link.set_bandwidths(&args.bandwidth);
+    Ok(link)
 }
 
 /// Returns the speed of each node.

@@ -118,7 +118,7 @@ impl Endpoint {
     pub fn send(&mut self, to: Party, message: Message, pixels: Vec<Colour>) {
         let bytes = self.shared.bytes(&message);
         let receiver = self.shared.index(to);
-        let arrives = self.shared.arrival(&mut self.links[receiver], self.time, bytes);
+        let arrives = self.shared.arrival(&mut self.links[receiver], (self.me, to), self.time, bytes);
         let arrives = self.shared.failures.arrival(self.me, to, arrives);
         let is_lost = self.shared.failures.is_cut(self.me, to);
         let sent = || Content::Message { from: self.me, message: message.clone(), pixels };
@@ -317,7 +317,7 @@ mod tests {
 
     /// Returns the header of a run with two emulated nodes.
     fn header(handling: Duration, latency: Duration) -> Header {
-        let link = LinkSettings { latency, bandwidth: None, shared: false };
+        let link = LinkSettings { latency, ..LinkSettings::default() };
         Header { handling, link, ..examples::header(&[0.5, 0.5]) }
     }
 

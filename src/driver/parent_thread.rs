@@ -90,6 +90,9 @@ impl ParentThread {
                 Some(Incoming::Command(Command::Latency(latency))) => {
                     self.endpoint.record(RecordKind::LatencySet { latency });
                 }
+                Some(Incoming::Command(Command::OwnLatency { party, latency })) => {
+                    self.endpoint.record(RecordKind::OwnLatencySet { party, latency });
+                }
                 Some(Incoming::Command(Command::Link { one, other, cut })) => {
                     self.endpoint.record(RecordKind::Link { one, other, cut });
                 }

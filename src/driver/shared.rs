@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 use std::sync::atomic::{self, AtomicU64};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError, RwLock};
 use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
@@ -12,7 +12,7 @@ use super::error::UntraceableAtom;
 use super::failures::Failures;
 use crate::balance::{Event, Message, NodeId, Party};
 use crate::picture::{Atom, Colour, Division};
-use crate::runlog::{Driver, Header};
+use crate::runlog::{Driver, Header, LinkSettings, OwnLink};
 use crate::scenario::Command;
 use crate::sim::{Link, Wire};
 use crate::time::Time;
@@ -26,9 +26,8 @@ pub(super) struct SharedRun {
     next_id: AtomicU64,
     /// Whether the latency can change; rayon's threads share their memory, so messages do not travel.
     has_latency: bool,
-    /// Latency of every link, in nanoseconds.
-    latency: AtomicU64,
-    bandwidth: Option<f64>,
+    /// Latency and bandwidth of all links, as of now.
+    link: RwLock<LinkSettings>,
     /// The wire that all links share, if they do.
     wire: Option<Mutex<Wire>>,
     /// Whether machines and links can fail: only if a node is one thread.
@@ -98,8 +97,7 @@ impl SharedRun {
             nodes,
             next_id: AtomicU64::new(0),
             has_latency: header.driver != Driver::WorkStealing,
-            latency: AtomicU64::new(nanoseconds(header.link.latency)),
-            bandwidth: header.link.bandwidth,
+            link: RwLock::new(header.link.clone()),
             wire: header.link.shared.then(Mutex::default),
             can_fail: header.driver == Driver::Threads,
             failures: Failures::default(),
@@ -137,19 +135,27 @@ impl SharedRun {
         message.bytes(self.division, self.scene_bytes)
     }
 
-    /// Sends a message of `bytes` bytes over `link` at `at`. Returns its arrival.
-    pub fn arrival(&self, link: &mut Link, at: Time, bytes: u64) -> Time {
-        let latency = Duration::from_nanos(self.latency.load(atomic::Ordering::Relaxed));
-        // A panic of another thread leaves the wire in a valid state.
+    /// Sends a message of `bytes` bytes over the link from one party to another at `at`. Returns its arrival.
+    pub fn arrival(&self, link: &mut Link, (from, to): (Party, Party), at: Time, bytes: u64) -> Time {
+        // A panic of another thread leaves settings and wire in a valid state.
+        let (latency, bandwidth) = self.link.read().unwrap_or_else(PoisonError::into_inner).between(from, to);
         let mut wire = self.wire.as_ref().map(|wire| wire.lock().unwrap_or_else(PoisonError::into_inner));
-        link.arrival(at, bytes, latency, self.bandwidth, wire.as_deref_mut())
+        link.arrival(at, bytes, latency, bandwidth, wire.as_deref_mut())
     }
 
     /// Executes a command now. A command to a node goes to its worker, and has no effect if the node has ended or does
     /// not exist. A change of the latency or of a link takes effect here, and the parent records it.
     pub fn command(&self, command: Command) {
         match command {
-            Command::Latency(latency) => self.set_latency(latency),
+            Command::Latency(latency) => {
+                self.set_latency(command, |link| std::mem::replace(&mut link.latency, latency) != latency);
+            }
+            Command::OwnLatency { party, latency } if self.exists(party) => self.set_latency(command, |link| {
+                let before = link.own(party);
+                link.set_own(party, OwnLink { latency, ..before });
+                before.latency != latency
+            }),
+            Command::OwnLatency { .. } => {}
             Command::Link { one, other, cut } => self.cut_link(one, other, cut),
             Command::Delay { from, to, by } => self.delay(from, to, by),
             Command::Condition { .. } if !self.can_fail => {}
@@ -161,12 +167,11 @@ impl SharedRun {
         }
     }
 
-    /// Sets the latency of every link for the messages that leave from now on, and tells the parent of a change.
-    fn set_latency(&self, latency: Duration) {
-        let nanoseconds = nanoseconds(latency);
-        if self.has_latency && self.latency.swap(nanoseconds, atomic::Ordering::Relaxed) != nanoseconds {
-            let command = Content::Command(Command::Latency(latency));
-            self.deliver(self.index(Party::Parent), self.clock.now(), command);
+    /// Sets a latency with `set`, which returns whether it changes, for the messages that leave from now on, and tells
+    /// the parent of a change.
+    fn set_latency(&self, command: Command, set: impl FnOnce(&mut LinkSettings) -> bool) {
+        if self.has_latency && set(&mut self.link.write().unwrap_or_else(PoisonError::into_inner)) {
+            self.deliver(self.index(Party::Parent), self.clock.now(), Content::Command(command));
         }
     }
 
@@ -188,8 +193,12 @@ impl SharedRun {
 
     /// Returns whether the link between two parties exists and can fail.
     fn has_link(&self, one: Party, other: Party) -> bool {
-        let exists = |party| matches!(party, Party::Parent) || self.index(party) < self.nodes;
-        self.can_fail && exists(one) && exists(other)
+        self.can_fail && self.exists(one) && self.exists(other)
+    }
+
+    /// Returns whether the run has this party.
+    fn exists(&self, party: Party) -> bool {
+        party == Party::Parent || self.index(party) < self.nodes
     }
 
     /// Returns a new id, unique in the run.
@@ -238,11 +247,6 @@ impl SharedRun {
     fn wake_all(&self) {
         (0..self.inboxes.len()).for_each(|party| _ = self.deliver(party, Time::ZERO, Content::Wake));
     }
-}
-
-/// Converts a duration to nanoseconds, at most those of 584 years.
-fn nanoseconds(length: Duration) -> u64 {
-    u64::try_from(length.as_nanos()).unwrap_or(u64::MAX)
 }
 
 impl PartialEq for Envelope {

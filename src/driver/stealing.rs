@@ -32,7 +32,7 @@ use crate::time::Time;
 pub(super) fn header(header: &Header) -> Header {
     Header {
         rules: Rules { strategy: Strategy::Serial, ..header.rules },
-        link: LinkSettings { latency: Duration::ZERO, bandwidth: None, shared: false },
+        link: LinkSettings::default(),
         handling: Duration::ZERO,
         spares: 0,
         ..header.clone()

@@ -12,7 +12,7 @@ use super::meter::{Batch, Meter};
 use super::panic_guard::GuardedTracer;
 use super::shared::WorkerOrder;
 use super::{TracePixels, Update};
-use crate::balance::{Condition, Event, NodeId, Strategy, Transition};
+use crate::balance::{Condition, Event, NodeId, Transition};
 use crate::picture::{Atom, Colour, Division};
 use crate::record::RecordKind;
 use crate::runlog::Header;
@@ -44,7 +44,7 @@ pub(super) trait WorkerHandler {
     /// Handles an atom that the worker has failed to trace.
     fn failed(&mut self, atom: Atom, worker: &mut Worker) {
         let _ = worker;
-        unreachable!("only a worker of the adaptive ring continues after it has failed to trace atom {atom}")
+        unreachable!("only a strategy that survives losses continues after a worker has failed to trace atom {atom}")
     }
 
     /// Handles the loss of the machine's memory: the node starts afresh.
@@ -99,7 +99,7 @@ impl Worker {
             endpoint,
             pipe: VecDeque::new(),
             pixels: Vec::new(),
-            tracer: GuardedTracer::new(trace, header.rules.strategy == Strategy::Adaptive),
+            tracer: GuardedTracer::new(trace, header.rules.strategy.survives_losses()),
             division: header.division,
             machine: Machine::new(header.speeds[usize::from(id)], header.pace),
             paused: false,
@@ -215,7 +215,7 @@ impl Worker {
             }
             Command::Condition { condition, .. } => return self.set_condition(condition, handler),
             Command::Delay { from, .. } => return self.endpoint.record_delay(from),
-            Command::Link { .. } | Command::Latency(_) => {
+            Command::Link { .. } | Command::Latency(_) | Command::OwnLatency { .. } => {
                 unreachable!("the parent records commands to the network")
             }
         };

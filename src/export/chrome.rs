@@ -168,6 +168,7 @@ fn write_messages(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Res
             Message::Offer { who, .. } if Party::Node(*who) == *from => (OFFERS, "offer"),
             Message::Offer { .. } => (OFFERS, "hop"),
             Message::Request => (OFFERS, "request"),
+            Message::Join => (OFFERS, "join"),
             Message::Shutdown => (OFFERS, "shutdown"),
             Message::Results(_) => (RESULTS, "results"),
             Message::Again(_) => (ATOMS, "again"),
@@ -275,6 +276,10 @@ fn write_instants(log: &RunLog, events: &mut TraceEvents<impl Write>) -> io::Res
             RecordKind::Condition { node, condition } => (Some(*node), condition_words(*condition).into()),
             RecordKind::SpeedSet { node, speed } => (Some(*node), format!("speed {:.0} %", 100.0 * speed)),
             RecordKind::LatencySet { latency } => (None, format!("latency {latency:?}")),
+            RecordKind::OwnLatencySet { party, latency } => {
+                let latency = latency.map_or("none".into(), |latency| format!("{latency:?}"));
+                (None, format!("own latency of {}: {latency}", party_name(*party)))
+            }
             RecordKind::Finished => (None, "the picture is complete".into()),
             _ => continue,
         };

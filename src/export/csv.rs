@@ -42,7 +42,7 @@ struct RecordRow {
     cost_s: Option<String>,
     /// New speed, as a fraction of the reference machine's.
     speed: Option<f64>,
-    /// New latency of all links; of a delay, its duration.
+    /// New latency of all nodes, or of one; of a delay, its duration.
     latency_s: Option<String>,
 }
 
@@ -107,6 +107,12 @@ fn row(record: &Record) -> RecordRow {
         RecordKind::LatencySet { latency } => {
             RecordRow { what: "latency", latency_s: Some(seconds(*latency)), ..RecordRow::default() }
         }
+        RecordKind::OwnLatencySet { party, latency } => RecordRow {
+            what: "own latency",
+            node: Some(party_name(*party)),
+            latency_s: latency.map(seconds),
+            ..RecordRow::default()
+        },
         RecordKind::Estimating => RecordRow { what: "estimating", ..RecordRow::default() },
         RecordKind::Estimated { costs } => {
             RecordRow { what: "estimated", cost_s: Some(seconds(costs.iter().sum())), ..RecordRow::default() }
@@ -154,6 +160,7 @@ fn sent(from: Party, message: &Message) -> RecordRow {
         Message::Transfer(_) => carried("transfer"),
         Message::Results(_) => carried("results"),
         Message::Request => RecordRow { what: "request", ..RecordRow::default() },
+        Message::Join => RecordRow { what: "join", ..RecordRow::default() },
         Message::Again(_) => carried("again"),
         Message::Wake => RecordRow { what: "wake", ..RecordRow::default() },
         Message::Beat { holds, .. } => {

@@ -120,9 +120,15 @@ pub(super) enum Problem {
     TooManyAtoms(u32),
     #[error("there can be 1 to {MAX_MACHINES} machines, not {0}")]
     MachineCount(usize),
+    #[error(
+        "there are {latencies} latencies for {machines} machines; give each machine one, or leave `latencies_ms` out"
+    )]
+    LatencyCount { latencies: usize, machines: usize },
     #[error("a speed can be 0 to 1")]
     Speed,
-    #[error("only an `adaptive` run has spare machines: the last of its `speeds`, but not all of them")]
+    #[error(
+        "only an `adaptive` or `farm-leases` run has spare machines: the last of its `speeds`, but not all of them"
+    )]
     Spares,
     #[error("only an `adaptive` run has remedies; leave out `without`, or set `strategy: \"adaptive\"`")]
     NoRemedies,

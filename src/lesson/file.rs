@@ -84,6 +84,7 @@ struct PlanFile {
     part: Option<u32>,
     speeds: Vec<f64>,
     latency_ms: f64,
+    latencies_ms: Vec<f64>,
     handling_ms: f64,
     seconds: f64,
     spares: usize,
@@ -153,6 +154,7 @@ impl Default for PlanFile {
             part: None,
             speeds: vec![1.0; 8],
             latency_ms: 40.0,
+            latencies_ms: Vec::new(),
             handling_ms: 0.0,
             seconds: 20.0,
             spares: 0,
@@ -210,7 +212,7 @@ impl PlanFile {
         if !self.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)) {
             return Err(InvalidLesson::new(&["speeds"], Problem::Speed));
         }
-        if self.spares >= self.speeds.len() || self.spares > 0 && self.strategy != Strategy::Adaptive {
+        if self.spares >= self.speeds.len() || self.spares > 0 && !self.strategy.survives_losses() {
             return Err(InvalidLesson::new(&["spares"], Problem::Spares));
         }
         if !self.without.is_empty() && self.strategy != Strategy::Adaptive {
@@ -224,6 +226,17 @@ impl PlanFile {
         if let Some(part) = self.part.filter(|part| !(1..=MAX_ATOMS).contains(part)) {
             return Err(InvalidLesson::new(&["part"], Problem::Part(part)));
         }
+        if ![0, self.speeds.len()].contains(&self.latencies_ms.len()) {
+            let problem = Problem::LatencyCount { latencies: self.latencies_ms.len(), machines: self.speeds.len() };
+            return Err(InvalidLesson::new(&["latencies_ms"], problem));
+        }
+        let latencies = match &self.latencies_ms[..] {
+            [] => vec![duration("latency_ms", "`latency_ms`", self.latency_ms)?],
+            each => {
+                let latency = |&ms: &f64| duration("latencies_ms", "each of `latencies_ms`", ms);
+                each.iter().map(latency).collect::<Result<_, _>>()?
+            }
+        };
         let mut script = Vec::new();
         for (index, entry) in self.script.into_iter().enumerate() {
             let entry = entry.resolve(self.speeds.len());
@@ -238,7 +251,7 @@ impl PlanFile {
             atom: self.atom,
             strategy: self.strategy,
             part: self.part,
-            latency: duration("latency_ms", "`latency_ms`", self.latency_ms)?,
+            latencies,
             handling: duration("handling_ms", "`handling_ms`", self.handling_ms)?,
             lasts: Duration::from_secs_f64(lasts),
             speeds: self.speeds,

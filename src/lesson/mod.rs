@@ -69,8 +69,8 @@ pub struct RunPlan {
     pub spares: NodeId,
     /// The remedies of the adaptive ring that are in use.
     pub remedies: Remedies,
-    /// The time that a message travels.
-    pub latency: Duration,
+    /// The latency of each machine, or one for all: a message takes the larger one of its two ends.
+    pub latencies: Vec<Duration>,
     /// The time for which the parent is busy with a message.
     pub handling: Duration,
     /// The makespan if the work were shared perfectly.
@@ -122,13 +122,14 @@ pub struct Question {
 }
 
 /// The built-in lessons in the order in which they are best taken: name and text.
-pub const BUILT_IN: [(&str, &str); 14] = [
+pub const BUILT_IN: [(&str, &str); 15] = [
     ("atoms", include_str!("../../assets/lessons/atoms.ron")),
     ("bands", include_str!("../../assets/lessons/bands.ron")),
     ("farm", include_str!("../../assets/lessons/farm.ron")),
     ("ring", include_str!("../../assets/lessons/ring.ron")),
     ("slow-machine", include_str!("../../assets/lessons/slow-machine.ron")),
     ("sizes", include_str!("../../assets/lessons/sizes.ron")),
+    ("far", include_str!("../../assets/lessons/far.ron")),
     ("limits", include_str!("../../assets/lessons/limits.ron")),
     ("by-speed", include_str!("../../assets/lessons/by-speed.ron")),
     ("crumbs", include_str!("../../assets/lessons/crumbs.ron")),

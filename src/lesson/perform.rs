@@ -82,6 +82,8 @@ impl RunPlan {
         let own = self.speeds.len() - usize::from(self.spares);
         let power: f64 = self.speeds[..own].iter().sum::<f64>().max(1e-3);
         let pace = costs.whole().as_secs_f64() / (self.lasts.as_secs_f64() * power);
+        let mut link = LinkSettings::default();
+        link.set_latencies(&self.latencies);
         let header = Header {
             scene: opened.name.clone(),
             scene_text: opened.text.clone(),
@@ -94,7 +96,7 @@ impl RunPlan {
             },
             spares: self.spares,
             pace: pace.clamp(1e-9, 1.0),
-            link: LinkSettings { latency: self.latency, ..plain.link },
+            link,
             handling: self.handling,
             ..plain
         };

@@ -156,7 +156,7 @@ fn write_line(to: &mut impl Write, line: &impl Serialize) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::super::examples::{done, header};
-    use super::super::{Driver, LinkSettings};
+    use super::super::{Driver, LinkSettings, OwnLink};
     use super::*;
     use crate::balance::{Condition, Message, OfferDetails, Party, Rules, Strategy as Sharing};
     use crate::record::RecordKind;
@@ -178,6 +178,7 @@ mod tests {
         prop_oneof![
             range().prop_map(Message::Band),
             Just(Message::Request),
+            Just(Message::Join),
             range().prop_map(Message::Part),
             (0..NODES, any::<u32>()).prop_map(|(who, done)| Message::offer(who, done)),
             (0..NODES, any::<u32>(), help()).prop_map(|(who, done, help)| Message::Offer {
@@ -221,6 +222,9 @@ mod tests {
             (0..NODES).prop_map(|node| RecordKind::Paused { node }),
             (0..NODES).prop_map(|node| RecordKind::Resumed { node }),
             (0..=3_600_000u64).prop_map(|ms| RecordKind::LatencySet { latency: Duration::from_millis(ms) }),
+            (parties(), prop::option::of(0..3600u64)).prop_map(|(party, seconds)| {
+                RecordKind::OwnLatencySet { party, latency: seconds.map(Duration::from_secs) }
+            }),
             (0..NODES).prop_map(|node| RecordKind::Retired { node }),
             (0..NODES, conditions()).prop_map(|(node, condition)| RecordKind::Condition { node, condition }),
             (parties(), parties(), any::<bool>()).prop_map(|(one, other, cut)| RecordKind::Link { one, other, cut }),
@@ -241,17 +245,20 @@ mod tests {
         let numbers = (prop::array::uniform4(0.0..=1.0f64), 1e-6..=1.0f64, prop::option::of(1.0..1e12f64));
         let batch = prop::option::of(any::<Duration>());
         let shared = any::<bool>();
+        let own = (prop::option::of(0..3600u64), prop::option::of(1.0..1e9f64))
+            .prop_map(|(seconds, bandwidth)| OwnLink { latency: seconds.map(Duration::from_secs), bandwidth });
+        let own_links = (prop::collection::vec(own.clone(), 0..4), own);
         let time = || {
             (0..=3600u64, 0..1_000_000_000u32)
                 .prop_map(|(s, ns)| Duration::from_secs(s.min(3599)) + Duration::from_nanos(ns.into()))
         };
-        (".*", (time(), time(), any::<u32>()), numbers, batch, shared).prop_map(
-            |(scene, (latency, handling, part), (speeds, pace, bandwidth), batch, shared)| Header {
+        (".*", (time(), time(), any::<u32>()), numbers, batch, (shared, own_links)).prop_map(
+            |(scene, (latency, handling, part), (speeds, pace, bandwidth), batch, (shared, (nodes, parent)))| Header {
                 scene,
                 driver: Driver::Sim,
                 rules: Rules { strategy: Sharing::FarmBySpeed, part, batch, ..header(&speeds).rules },
                 pace,
-                link: LinkSettings { latency, bandwidth, shared },
+                link: LinkSettings { latency, bandwidth, shared, nodes, parent },
                 handling,
                 ..header(&speeds)
             },

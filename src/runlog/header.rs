@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::Metadata;
-use crate::balance::{NodeId, Remedies, Rules, Scheduler, Strategy};
+use super::{LinkSettings, Metadata};
+use crate::balance::{NodeId, Remedies, Remedy, Rules, Scheduler, Strategy};
 use crate::picture::{Division, Quality, Size};
 
 /// The settings of a run.
@@ -28,8 +28,8 @@ pub struct Header {
     pub rules: Rules,
     /// By node: speed as a fraction of the reference machine's (1 = 100 %).
     pub speeds: Vec<f64>,
-    /// Number of spare nodes: the last ones, which are off at first and may join the run. Only the adaptive ring can
-    /// have some.
+    /// Number of spare nodes: the last ones, which are off at first and may join the run. Only strategies that let
+    /// machines in can have some ([`Strategy::survives_losses`]).
     #[serde(default, skip_serializing_if = "is_zero")]
     pub spares: NodeId,
     /// Fraction of a real core that the reference machine gets, above 0 and at most 1. At pace 1 a node of speed 1
@@ -88,7 +88,7 @@ impl Header {
             driver: Driver::Threads,
             rules: Rules::usual(strategy, division, speeds.len()),
             pace: 1.0,
-            link: LinkSettings { latency: Duration::ZERO, bandwidth: None, shared: false },
+            link: LinkSettings::default(),
             handling: Duration::ZERO,
             cores: speeds.len(),
             speeds,
@@ -110,9 +110,13 @@ impl Header {
         if self.caption.title.is_empty() { &self.scene } else { &self.caption.title }
     }
 
-    /// Returns the remedies that the run uses; none unless it is an adaptive ring.
+    /// Returns the remedies that the run uses: those of the adaptive ring, or the leases of the farm with leases.
     pub fn remedies(&self) -> Remedies {
-        if self.scheduler().is_adaptive() { self.rules.remedies } else { Remedies::NONE }
+        match self.scheduler() {
+            Scheduler::Protocol(Strategy::Adaptive) => self.rules.remedies,
+            Scheduler::Protocol(Strategy::FarmLeases) => Remedies::NONE.with(Remedy::Leases),
+            Scheduler::Protocol(_) | Scheduler::WorkStealing => Remedies::NONE,
+        }
     }
 
     /// Returns whether this node is a spare, which is off at first.
@@ -128,15 +132,4 @@ impl Header {
 
 fn is_zero(count: &NodeId) -> bool {
     *count == 0
-}
-
-/// Latency and bandwidth of the links between any two parties, the parent included.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LinkSettings {
-    /// Travel time of a message's last byte.
-    pub latency: Duration,
-    /// Bytes per second; `None` is unlimited.
-    pub bandwidth: Option<f64>,
-    /// Whether all parties share one wire, as on an Ethernet of 1997; else each pair has its own.
-    pub shared: bool,
 }

@@ -57,7 +57,7 @@ impl MessageCounts {
                 self.atoms_moved += u64::from(atoms_in(ranges));
             }
             Message::Results(_) => self.results += 1,
-            Message::Request => self.requests += 1,
+            Message::Request | Message::Join => self.requests += 1,
             Message::Part(_) => self.parts += 1,
             Message::Beat { .. } => self.beats += 1,
             Message::Wake => self.wakes += 1,

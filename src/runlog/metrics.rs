@@ -94,6 +94,7 @@ impl Metrics {
             | RecordKind::Estimated { .. }
             | RecordKind::AtomStarted { .. }
             | RecordKind::LatencySet { .. }
+            | RecordKind::OwnLatencySet { .. }
             | RecordKind::Link { .. }
             | RecordKind::Delayed { .. }
             | RecordKind::Lost { .. }

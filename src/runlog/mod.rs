@@ -5,6 +5,7 @@ pub(crate) mod examples;
 mod file;
 mod file_error;
 mod header;
+mod link_settings;
 mod log;
 mod messages;
 mod metadata;
@@ -14,7 +15,8 @@ mod validate;
 
 pub use file::is_run_file;
 pub use file_error::{LineError, LogError};
-pub use header::{Driver, Header, LinkSettings};
+pub use header::{Driver, Header};
+pub use link_settings::{LinkSettings, OwnLink};
 pub use log::RunLog;
 pub use messages::MessageCounts;
 pub use metadata::Metadata;

@@ -6,7 +6,7 @@ use std::time::Duration;
 use thiserror::Error;
 
 use super::Header;
-use crate::balance::{Message, NodeId, Party, Strategy, estimate};
+use crate::balance::{Message, NodeId, Party, estimate};
 use crate::picture::{Atom, Division, QualityError, Size, SizeError};
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
@@ -43,8 +43,11 @@ pub enum InvalidHeader {
     #[error("all machines are spares; at least one must be on")]
     OnlySpares,
     /// No other strategy lets machines join.
-    #[error("only the adaptive ring can have spare machines")]
-    SparesWithoutAdaptiveRing,
+    #[error("only the adaptive ring and the farm with leases can have spare machines")]
+    SparesCannotJoin,
+    /// More nodes have links of their own than there are nodes.
+    #[error("there are more links than speeds")]
+    WrongNumberOfLinks,
     /// A latency or a handling time is longer than an hour.
     #[error("a message takes longer than an hour")]
     SlowMessages,
@@ -114,16 +117,18 @@ pub(super) fn header(header: &Header) -> Result<(), InvalidHeader> {
     header.quality.check().map_err(InvalidHeader::Quality)?;
     ensure((1..=1024).contains(&header.speeds.len()), InvalidHeader::WrongNumberOfSpeeds)?;
     ensure(usize::from(header.spares) < header.speeds.len(), InvalidHeader::OnlySpares)?;
-    ensure(
-        header.spares == 0 || header.rules.strategy == Strategy::Adaptive,
-        InvalidHeader::SparesWithoutAdaptiveRing,
-    )?;
-    ensure(header.link.latency <= HOUR && header.handling <= HOUR, InvalidHeader::SlowMessages)?;
+    ensure(header.spares == 0 || header.rules.strategy.survives_losses(), InvalidHeader::SparesCannotJoin)?;
+    let link = &header.link;
+    let own = || link.nodes.iter().chain([&link.parent]);
+    ensure(link.nodes.len() <= header.speeds.len(), InvalidHeader::WrongNumberOfLinks)?;
+    let latencies = own().filter_map(|own| own.latency).chain([link.latency, header.handling]);
+    ensure(latencies.max() <= Some(HOUR), InvalidHeader::SlowMessages)?;
     let beat = header.rules.beat;
     ensure(beat >= Duration::from_millis(1) && beat <= YEAR, InvalidHeader::ImpossibleBeat)?;
     ensure(header.speeds.iter().all(|speed| (0.0..=1.0).contains(speed)), InvalidHeader::ImpossibleSpeed)?;
     ensure(header.pace > 0.0 && header.pace <= 1.0, InvalidHeader::ImpossiblePace)?;
-    ensure(header.link.bandwidth.is_none_or(|bandwidth| bandwidth > 0.0), InvalidHeader::ImpossibleBandwidth)
+    let mut bandwidths = own().filter_map(|own| own.bandwidth).chain(link.bandwidth);
+    ensure(bandwidths.all(|bandwidth| bandwidth > 0.0), InvalidHeader::ImpossibleBandwidth)
 }
 
 /// Checks the records of a run, one after the other.
@@ -186,6 +191,10 @@ impl<'a> Checker<'a> {
             }
             RecordKind::GivenUp { atom } => self.atom(*atom),
             RecordKind::LatencySet { latency } => ensure(*latency <= HOUR, InvalidRecord::SlowMessages),
+            RecordKind::OwnLatencySet { party: of, latency } => {
+                party(header, *of)?;
+                ensure(latency.unwrap_or_default() <= HOUR, InvalidRecord::SlowMessages)
+            }
             RecordKind::Estimated { costs } => {
                 let stretches = estimate::samples(header.division).len();
                 ensure(costs.len() == stretches, InvalidRecord::WrongSample)?;
@@ -207,7 +216,7 @@ impl<'a> Checker<'a> {
             Message::Gone(nodes) => nodes.iter().try_for_each(|id| node(self.header, *id)),
             Message::Failed(atom) => self.atom(*atom),
             Message::Offer { who, .. } => node(self.header, *who),
-            Message::Request | Message::Wake | Message::Shutdown => Ok(()),
+            Message::Request | Message::Join | Message::Wake | Message::Shutdown => Ok(()),
         }
     }
 
@@ -252,6 +261,7 @@ mod tests {
     use super::super::examples;
     use super::super::examples::{at, done, sent};
     use super::*;
+    use crate::balance::Strategy;
 
     /// Checks the records of a run with one node up to the first that is refused.
     fn check(records: &[Record]) -> Result<(), InvalidRecord> {

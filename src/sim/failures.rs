@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::event_queue::SimEvent;
 use super::simulation::{RecordSink, Sim};
-use crate::balance::{Condition, Event, NodeId, Party, Strategy, Transition};
+use crate::balance::{Condition, Event, NodeId, Party, Transition};
 use crate::cancel::CancelToken;
 use crate::record::{Record, RecordKind};
 
@@ -23,7 +23,7 @@ impl Sim {
     /// Does the same as [`Sim::run`], but ends early once cancelled.
     pub fn run_unless_cancelled(&mut self, cancel: &CancelToken, sink: &mut dyn FnMut(Record)) {
         // In all other strategies no events are left at a standstill.
-        let can_stand_still = self.rules.strategy == Strategy::Adaptive;
+        let can_stand_still = self.rules.strategy.survives_losses();
         let mut last_work = self.now;
         while let Some(next) = self.next().filter(|_| !cancel.is_cancelled()) {
             let mut works = false;
@@ -113,6 +113,7 @@ impl Sim {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::balance::Strategy;
     use crate::runlog::{Driver, Header, examples};
     use crate::scenario::Command;
     use crate::time::Time;
@@ -152,13 +153,15 @@ mod tests {
     fn run_ends_when_no_node_will_ever_work_again() {
         let plain = examples::header(&[1.0, 1.0]);
         let mut header = Header { driver: Driver::Sim, ..plain };
-        header.rules.strategy = Strategy::Adaptive;
         let off = |node| (Time(2_000), Command::Condition { node, condition: Condition::Off });
         let back = (Time::from_secs(100.0), Command::Condition { node: 1, condition: Condition::Well });
-        for (script, ends) in [(vec![off(0), off(1)], false), (vec![off(0), off(1), back], true)] {
-            let mut sim = Sim::new(&header, &script, |_| Duration::from_micros(100));
+        let scripts = [(vec![off(0), off(1)], false), (vec![off(0), off(1), back], true)];
+        let strategies = [Strategy::FarmLeases, Strategy::Adaptive];
+        for (strategy, (script, ends)) in strategies.iter().flat_map(|of| scripts.iter().map(move |it| (of, it))) {
+            header.rules.strategy = strategy.clone();
+            let mut sim = Sim::new(&header, script, |_| Duration::from_micros(100));
             sim.run(&mut |_| {});
-            assert_eq!(sim.is_finished(), ends, "{script:?}");
+            assert_eq!(sim.is_finished(), *ends, "{strategy} {script:?}");
         }
     }
 }

@@ -12,7 +12,7 @@ use super::sim_node::SimNode;
 use crate::balance::{Action, Condition, Event, Message, NodeId, Parent, Party, Rules, estimate};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, RecordKind};
-use crate::runlog::{Header, RunLog};
+use crate::runlog::{Header, LinkSettings, OwnLink, RunLog};
 use crate::scenario::Command;
 use crate::time::Time;
 
@@ -32,8 +32,7 @@ pub struct Sim {
     pub(super) faults: Faults,
     parent_timer: Option<Time>,
     pub(super) rules: Rules,
-    latency: Duration,
-    bandwidth: Option<f64>,
+    link: LinkSettings,
     handling: Duration,
     pace: f64,
     division: Division,
@@ -82,8 +81,7 @@ impl Sim {
             faults: Faults::default(),
             parent_timer: None,
             rules: header.rules.clone(),
-            latency: header.link.latency,
-            bandwidth: header.link.bandwidth,
+            link: header.link.clone(),
             handling: header.handling,
             pace: header.pace,
             division: header.division,
@@ -190,12 +188,24 @@ impl Sim {
                 }
             }
             Command::Delay { from, to, by } => self.delay(from, to, by, sink),
-            Command::Latency(latency) if self.finished || latency == self.latency => {}
+            Command::Latency(latency) if self.finished || latency == self.link.latency => {}
             Command::Latency(latency) => {
-                self.latency = latency;
+                self.link.latency = latency;
                 self.record(RecordKind::LatencySet { latency }, sink);
             }
+            Command::OwnLatency { party, latency } => {
+                let own = OwnLink { latency, ..self.link.own(party) };
+                if !self.finished && self.has(party) && own != self.link.own(party) {
+                    self.link.set_own(party, own);
+                    self.record(RecordKind::OwnLatencySet { party, latency }, sink);
+                }
+            }
         }
+    }
+
+    /// Returns whether the run has this party.
+    fn has(&self, party: Party) -> bool {
+        matches!(party, Party::Node(node) if usize::from(node) < self.nodes.len()) || party == Party::Parent
     }
 
     /// Returns the index of a node that has not ended.
@@ -338,7 +348,8 @@ impl Sim {
         };
         let place = if let Party::Node(node) = to { usize::from(node) } else { usize::MAX };
         let link = links.entry(place).or_default();
-        let arrives = link.arrival(self.now, bytes, self.latency, self.bandwidth, self.wire.as_mut());
+        let (latency, bandwidth) = self.link.between(from, to);
+        let arrives = link.arrival(self.now, bytes, latency, bandwidth, self.wire.as_mut());
         let arrives = self.faults.arrival(from, to, arrives);
         let id = self.sent;
         self.sent += 1;

@@ -36,7 +36,7 @@ pub enum Change {
     Without(Remedy),
     /// Another number of pixels in an atom.
     Atom(u32),
-    /// Another latency of all links.
+    /// Another latency of all nodes that have none of their own.
     Latency(Duration),
     /// Another time that the parent is busy with each message.
     Handling(Duration),
@@ -50,6 +50,7 @@ impl Trial {
             RecordKind::Paused { node } => Some(Command::Pause { node, paused: true }),
             RecordKind::Resumed { node } => Some(Command::Pause { node, paused: false }),
             RecordKind::LatencySet { latency } => Some(Command::Latency(latency)),
+            RecordKind::OwnLatencySet { party, latency } => Some(Command::OwnLatency { party, latency }),
             RecordKind::Condition { node, condition } => Some(Command::Condition { node, condition }),
             RecordKind::Link { one, other, cut } => Some(Command::Link { one, other, cut }),
             RecordKind::Delayed { from, to, until } => Some(Command::Delay { from, to, by: until.since(at) }),
@@ -74,8 +75,8 @@ impl Trial {
         match change {
             Change::Strategy(strategy) => {
                 header.rules.strategy = strategy;
-                if header.rules.strategy != Strategy::Adaptive {
-                    // Only the adaptive ring lets spare machines in.
+                if !header.rules.strategy.survives_losses() {
+                    // The other strategies do not let spare machines in.
                     header.speeds.truncate(header.speeds.len() - usize::from(std::mem::take(&mut header.spares)));
                 }
             }
@@ -112,6 +113,7 @@ impl Trial {
             header.rules.beat = Rules::beat_for(header.handling, header.speeds.len());
         }
         header.cores = header.speeds.len();
+        header.link.trim(header.speeds.len());
         trial
     }
 
@@ -214,12 +216,13 @@ mod tests {
     }
 
     #[test]
-    fn spares_stay_only_in_the_adaptive_ring() {
+    fn spares_stay_only_where_machines_are_let_in() {
         let mut trial = Trial::new(header(&[1.0, 1.0, 1.0]), Vec::new());
         trial = trial.with(Change::Strategy(Strategy::Adaptive));
         trial.header.spares = 1;
         let ring = trial.with(Change::Strategy(Strategy::Ring)).header;
         assert_eq!((ring.speeds.len(), ring.spares, ring.cores), (2, 0, 2));
+        assert_eq!(trial.with(Change::Strategy(Strategy::FarmLeases)).header.spares, 1);
         let one = trial.with(Change::Nodes(1)).header;
         assert_eq!((one.speeds.len(), one.spares), (1, 0));
     }

@@ -18,11 +18,12 @@ use crate::tracer::Tracer;
 pub(super) type AtomCosts = Arc<[Duration]>;
 
 /// The strategies that studies compare.
-pub(super) const STRATEGIES: [Strategy; 6] = [
+pub(super) const STRATEGIES: [Strategy; 7] = [
     Strategy::Static,
     Strategy::StaticEstimate,
     Strategy::Farm,
     Strategy::FarmBySpeed,
+    Strategy::FarmLeases,
     Strategy::Ring,
     Strategy::Adaptive,
 ];

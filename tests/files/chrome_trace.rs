@@ -119,7 +119,7 @@ proptest! {
     ) {
         let nodes = speeds.len() as u16;
         let plain = Header::plain(Size::new(width, height).expect("a small picture"), atom, strategy, speeds);
-        let link = LinkSettings { latency: Duration::from_millis(latency), bandwidth, shared: false };
+        let link = LinkSettings { latency: Duration::from_millis(latency), bandwidth, ..LinkSettings::default() };
         let rules = Rules { batch: Some(Duration::from_millis(5)), ..plain.rules };
         let header = Header { link, rules, handling: Duration::from_millis(handling), ..plain };
         let ms = |at: u64| Time(at * 1_000_000);

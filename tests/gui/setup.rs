@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use anel::balance::Strategy;
+use anel::balance::{Party, Strategy};
 use anel::gui::{Pace, Settings};
 use anel::record::RecordKind;
 use egui::Key;
@@ -53,6 +53,35 @@ fn latency_applies_to_the_current_run() {
     assert!(done(&window) > 100);
     ctrl(&mut window, Key::Z);
     assert_eq!(session(&window).settings().latency, 250.0);
+}
+
+#[test]
+fn own_latency_applies_to_the_current_run_and_own_bandwidth_restarts_it() {
+    let mut window = open_setup();
+    until(&mut window, "many atoms", |window| done(window) > 100);
+    press(&mut window, "Own links: none");
+    type_number(&mut window, "Latency of machine 3 in milliseconds", "250");
+    let set = |window: &Window| {
+        let of = |kind: &RecordKind| match kind {
+            RecordKind::OwnLatencySet { party, latency } => Some((*party, *latency)),
+            _ => None,
+        };
+        recorded(window, of).last().copied()
+    };
+    let (machine, own) = (Party::Node(2), Some(Duration::from_millis(250)));
+    until(&mut window, "a record", |window| set(window) == Some((machine, own)));
+    assert_eq!(session(&window).stage().state().own_link(machine).latency, own);
+    // A value like that of all others is none of its own.
+    type_number(&mut window, "Latency of machine 3 in milliseconds", "40");
+    until(&mut window, "a record", |window| set(window) == Some((machine, None)));
+    assert!(done(&window) > 100);
+    ctrl(&mut window, Key::Z);
+    until(&mut window, "a record", |window| set(window) == Some((machine, own)));
+    type_number(&mut window, "Kilobytes a second of machine 3", "100");
+    let link = session(&window).header().link.own(machine);
+    assert_eq!((link.latency, link.bandwidth), (own, Some(1e5)));
+    assert_eq!(notice(&window), "Restarted with: machine 3 with a link of 250 ms, 100 kB/s");
+    assert_eq!(session(&window).settings().own_link_count(), 1);
 }
 
 #[test]

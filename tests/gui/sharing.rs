@@ -34,6 +34,7 @@ fn every_strategy_can_be_chosen_and_traces() {
         ("Estimated bands", Strategy::StaticEstimate, 1),
         ("Farm", Strategy::Farm, 48),
         ("Farm by speed", Strategy::FarmBySpeed, 48),
+        ("Farm with leases", Strategy::FarmLeases, 48),
         ("Serial", Strategy::Serial, 1),
         ("Ring", Strategy::Ring, 1),
     ];

@@ -1,5 +1,5 @@
-//! A worker panics while it traces an atom: the adaptive ring tries the atom on other nodes, until too many have
-//! failed.
+//! A worker panics while it traces an atom: the adaptive ring and the farm with leases try the atom on other nodes,
+//! until too many have failed.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -13,8 +13,12 @@ use anel::tracer::Scratch;
 
 use crate::watched;
 
-/// Drivers whose workers trace pixels during the run.
-const DRIVERS: [Driver; 2] = [Driver::Threads, Driver::Pairs];
+/// Strategies that try the atom again, and drivers whose workers trace pixels during the run.
+const WAYS: [(Strategy, Driver); 3] = [
+    (Strategy::Adaptive, Driver::Threads),
+    (Strategy::Adaptive, Driver::Pairs),
+    (Strategy::FarmLeases, Driver::Threads),
+];
 
 /// Pixels of an atom; wide, so that a later piece of it fails.
 const ATOM_PIXELS: u32 = 90;
@@ -24,9 +28,9 @@ const BAD_PIXEL: u32 = 5 * ATOM_PIXELS + 80;
 
 /// Executes a run whose bad pixel fails the first `times`. Returns its picture or the reason of its failure, and its
 /// records.
-fn run(driver: Driver, times: u32) -> (Result<Frame, String>, Vec<Record>) {
+fn run(strategy: Strategy, driver: Driver, times: u32) -> (Result<Frame, String>, Vec<Record>) {
     let size = Size::new(100, 20).expect("a size");
-    let header = Header { driver, ..Header::plain(size, ATOM_PIXELS, Strategy::Adaptive, vec![1.0; 3]) };
+    let header = Header { driver, ..Header::plain(size, ATOM_PIXELS, strategy, vec![1.0; 3]) };
     let failed = AtomicU32::new(0);
     let trace = move |pixels: Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
         for pixel in pixels {
@@ -53,9 +57,9 @@ fn has_failed(kind: &RecordKind) -> bool {
 
 #[test]
 fn one_or_two_failures_leave_the_picture_complete() {
-    for driver in DRIVERS {
+    for (strategy, driver) in WAYS {
         for times in [1, 2] {
-            let (frame, records) = run(driver, times);
+            let (frame, records) = run(strategy.clone(), driver, times);
             let frame = frame.expect("a picture");
             assert!((0..2000).map(colour).eq(frame.pixels().iter().copied()), "after {times} failures");
             assert_eq!(count(&records, has_failed), times as usize);
@@ -65,8 +69,8 @@ fn one_or_two_failures_leave_the_picture_complete() {
 
 #[test]
 fn three_failures_end_the_run_and_name_the_atom() {
-    for driver in DRIVERS {
-        let (frame, records) = run(driver, u32::MAX);
+    for (strategy, driver) in WAYS {
+        let (frame, records) = run(strategy, driver, u32::MAX);
         let why = frame.expect_err("the run fails");
         assert_eq!(why, "no worker could trace atom 5, whose first pixel is at 50,4");
         assert!(count(&records, has_failed) >= 3);

@@ -7,6 +7,8 @@ mod watched;
 
 mod adaptive_rules;
 mod failing_workers;
+mod farm_leases_rules;
+mod links;
 mod protocol_rules;
 mod random_runs;
 mod retrace;

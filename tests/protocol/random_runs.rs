@@ -7,11 +7,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-use anel::balance::{NodeId, Rules, Strategy};
+use anel::balance::{NodeId, Party, Rules, Strategy};
 use anel::driver::{Run, Update};
 use anel::picture::{Atom, Colour, Division, Size};
 use anel::record::RecordKind;
-use anel::runlog::{Driver, Header, LinkSettings, Metrics, RunLog};
+use anel::runlog::{Driver, Header, LinkSettings, Metrics, OwnLink, RunLog};
 use anel::scenario::Command;
 use anel::time::Time;
 use anel::tracer::Scratch;
@@ -78,6 +78,8 @@ fn nine_hundred_random_runs_in_virtual_time() {
             script.push((Time::from_secs(at), Command::Pause { node, paused: random.below(2) == 0 }));
             script.push((Time::from_secs(4.0 + at), Command::Pause { node, paused: false }));
             script.push((Time::from_secs(at), Command::Latency(random.one_of(&[0, 2, 300]) * MS)));
+            let latency = random.one_of(&[None, Some(3 * MS)]);
+            script.push((Time::from_secs(at), Command::OwnLatency { party: Party::Node(node), latency }));
         }
         let costs: [fn(Atom) -> f64; 3] =
             [|_| 1e-3, |atom| if atom < 20 { 0.05 } else { 1e-5 }, |atom| f64::from(atom % 7) * 1e-3];
@@ -98,6 +100,8 @@ fn nine_hundred_random_runs_in_virtual_time() {
                 latency: random.one_of(&[0, 1, 40, 1000]) * MS,
                 bandwidth: random.one_of(&[None, Some(1e4), Some(1e6)]),
                 shared: random.below(2) == 0,
+                nodes: own_links(random, nodes),
+                parent: OwnLink { latency: random.one_of(&[None, None, Some(5 * MS)]), bandwidth: None },
             },
             handling,
             ..plain
@@ -128,6 +132,8 @@ fn one_hundred_random_runs_on_threads() {
                 latency: random.one_of(&[0, 0, 1, 5]) * MS,
                 bandwidth: random.one_of(&[None, None, Some(1e7)]),
                 shared: random.below(2) == 0,
+                nodes: own_links(random, 1),
+                parent: OwnLink::default(),
             },
             handling: random.one_of(&[0, 0, 100]) * Duration::from_micros(1),
             ..plain
@@ -151,6 +157,15 @@ fn one_hundred_random_runs_on_threads() {
         // A latency set after the end is not in the records.
         assert!(set[1..].starts_with(&latencies(&log)), "{set:?}");
     });
+}
+
+/// What some of `nodes` nodes have of their own.
+fn own_links(random: &mut Random, nodes: u64) -> Vec<OwnLink> {
+    let mut own = |_| OwnLink {
+        latency: random.one_of(&[None, None, Some(2 * MS)]),
+        bandwidth: random.one_of(&[None, None, Some(1e6)]),
+    };
+    (0..nodes).map(&mut own).collect()
 }
 
 #[test]

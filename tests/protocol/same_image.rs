@@ -34,6 +34,16 @@ fn adaptive_ring_of_very_different_machines() {
 }
 
 #[test]
+fn farm_with_leases_of_very_different_machines() {
+    compare(Driver::Threads, Strategy::FarmLeases, very_different);
+}
+
+#[test]
+fn farm_with_leases_with_two_threads_a_node() {
+    compare(Driver::Pairs, Strategy::FarmLeases, |_| 1.0);
+}
+
+#[test]
 fn adaptive_ring_with_two_threads_a_node() {
     compare(Driver::Pairs, Strategy::Adaptive, |_| 1.0);
 }

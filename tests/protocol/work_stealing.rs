@@ -19,7 +19,7 @@ const MS: Duration = Duration::from_millis(1);
 fn header(speeds: &[f64], pace: f64) -> Header {
     let plain = Header::plain(Size::new(100, 50).unwrap(), 10, Strategy::Ring, speeds.to_vec());
     // Links and handling do not apply to work stealing and must have no effect.
-    let link = LinkSettings { latency: 3_600_000 * MS, bandwidth: Some(1.0), shared: true };
+    let link = LinkSettings { latency: 3_600_000 * MS, bandwidth: Some(1.0), shared: true, ..LinkSettings::default() };
     Header { driver: Driver::WorkStealing, pace, link, handling: 1000 * MS, ..plain }
 }
 

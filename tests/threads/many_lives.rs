@@ -45,7 +45,9 @@ fn failing_machines_and_links_do_not_change_the_picture() {
     tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut plain);
     let mut failures = Failures::default();
     for seed in 0..200 {
-        let frame = run_with_failures(&tracer, &mut Rng::with_seed(seed), &mut failures)
+        // Half of the runs each.
+        let strategy = [Strategy::Adaptive, Strategy::FarmLeases][seed as usize % 2].clone();
+        let frame = run_with_failures(&tracer, strategy, &mut Rng::with_seed(seed), &mut failures)
             .unwrap_or_else(|why| panic!("seed {seed}: {why}"));
         assert!(bits(frame.pixels()).eq(bits(&plain)), "seed {seed}: the picture differs");
     }
@@ -74,11 +76,17 @@ fn failing_machines_and_links_do_not_change_the_picture() {
 }
 
 /// Executes a run whose machines and links fail at random; its first node stays well.
-fn run_with_failures(tracer: &Arc<Tracer>, rng: &mut Rng, failures: &mut Failures) -> Result<Frame, String> {
+fn run_with_failures(
+    tracer: &Arc<Tracer>,
+    strategy: Strategy,
+    rng: &mut Rng,
+    failures: &mut Failures,
+) -> Result<Frame, String> {
     let nodes: NodeId = rng.u16(2..=6);
     let speeds = (0..nodes).map(|_| [1.0, 1.0, 0.5, 0.2][rng.usize(0..4)]).collect();
     let spares = rng.u16(0..=nodes / 3);
-    let plain = Header::plain(tracer.size(), rng.u32(4..=40), Strategy::Adaptive, speeds);
+    let has_joins = strategy == Strategy::FarmLeases;
+    let plain = Header::plain(tracer.size(), rng.u32(4..=40), strategy, speeds);
     let header = Header {
         // Leases are short, so that lost atoms are soon given out again.
         rules: Rules { beat: 3 * MS, batch: [None, Some(MS)][rng.usize(0..2)], ..plain.rules },
@@ -94,7 +102,7 @@ fn run_with_failures(tracer: &Arc<Tracer>, rng: &mut Rng, failures: &mut Failure
     }
     let (frame, records) = watched::picture(&run, &header);
     let frame = frame?;
-    count_failures(&records, nodes, failures);
+    count_failures(&records, nodes, has_joins, failures);
     Ok(frame)
 }
 
@@ -121,7 +129,8 @@ fn random_command(rng: &mut Rng, nodes: NodeId) -> Command {
     }
 }
 
-fn count_failures(records: &[Record], nodes: NodeId, failures: &mut Failures) {
+/// Counts the failures; in the farm with leases a machine that starts afresh sends a join.
+fn count_failures(records: &[Record], nodes: NodeId, has_joins: bool, failures: &mut Failures) {
     let mut last_conditions = vec![Condition::Well; usize::from(nodes)];
     for record in records {
         match &record.kind {
@@ -138,7 +147,8 @@ fn count_failures(records: &[Record], nodes: NodeId, failures: &mut Failures) {
             RecordKind::Delayed { .. } => failures.delayed += 1,
             RecordKind::Paused { .. } | RecordKind::SpeedSet { speed: 0.0, .. } => failures.stopped += 1,
             RecordKind::Lost { .. } => failures.lost += 1,
-            RecordKind::Sent { message: Message::Request, .. } => failures.restarted += 1,
+            RecordKind::Sent { message: Message::Join, .. } => failures.restarted += 1,
+            RecordKind::Sent { message: Message::Request, .. } if !has_joins => failures.restarted += 1,
             RecordKind::Sent { from: Party::Parent, message: Message::Again(_), .. } => failures.given_out_again += 1,
             _ => {}
         }

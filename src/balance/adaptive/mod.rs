@@ -1,8 +1,6 @@
 #![doc = include_str!("README.md")]
 
-mod admission;
 mod copies;
-mod heartbeat;
 mod helping;
 mod node;
 mod offering;
@@ -11,7 +9,6 @@ mod route;
 mod share;
 mod sleep_notice;
 mod sleepers;
-mod speed_estimate;
 mod timers;
 
 pub use node::AdaptiveNode;

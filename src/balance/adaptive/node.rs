@@ -3,16 +3,16 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use super::admission::Admission;
 use super::copies::Copies;
-use super::heartbeat::Heartbeat;
 use super::own_offer::OwnOffer;
 use super::route::RingMembers;
 use super::sleep_notice::SleepNotice;
 use super::sleepers::Sleepers;
-use super::speed_estimate::SpeedEstimate;
+use crate::balance::admission::Admission;
+use crate::balance::heartbeat::Heartbeat;
 use crate::balance::message::{Action, Event, Message, NodeId, OfferDetails, Party};
 use crate::balance::remedy::{Remedies, Remedy};
+use crate::balance::speed_estimate::SpeedEstimate;
 use crate::balance::strategy::Rules;
 use crate::balance::work::Work;
 use crate::picture::Atom;

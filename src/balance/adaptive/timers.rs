@@ -8,9 +8,6 @@ use crate::balance::remedy::Remedy;
 use crate::balance::strategy::LEASE_BEATS;
 use crate::time::Time;
 
-/// A worker counts as stuck if its atom takes this many leases and this many times [`LEASE_BEATS`] usual atoms.
-const STUCK_LEASES: u32 = 16;
-
 impl AdaptiveNode {
     /// Returns how long a node may be silent, and an offer under way, before it counts as lost.
     pub(super) fn lease(&self) -> Duration {
@@ -40,7 +37,9 @@ impl AdaptiveNode {
         self.offer_early(now, actions);
         if self.heartbeat.take_due(now) {
             let idle = self.work.is_idle();
-            let holds = if self.is_stuck(now) { Vec::new() } else { self.work.held() };
+            // Copies and the ring have helped a stuck worker long before, if the node can be reached at all.
+            let is_stuck = !idle && self.speed_estimate.is_stuck(now, self.lease());
+            let holds = if is_stuck { Vec::new() } else { self.work.held() };
             send(Party::Parent, Message::Beat { holds, idle, sent: now }, actions);
         }
         let expiries = [
@@ -56,15 +55,6 @@ impl AdaptiveNode {
             self.timer = Some(next);
             actions.push(Action::SetTimer(next));
         }
-    }
-
-    /// Returns whether the worker has had its atom for so long that the node no longer vouches for what it holds.
-    /// Copies and the ring have helped long before, if the node can be reached at all; the bound is high because an
-    /// atom that is merely costly should not be traced by all nodes.
-    fn is_stuck(&self, now: Time) -> bool {
-        let age = now.since(self.speed_estimate.since());
-        let usual = self.speed_estimate.usual_time().unwrap_or_default();
-        !self.work.is_idle() && age > self.lease().max(usual * LEASE_BEATS) * STUCK_LEASES
     }
 
     /// Returns when the own offer counts as lost, or when the next sleep notice is due. Without leases nothing counts

@@ -23,7 +23,7 @@ impl Session {
         !self.is_recorded() && self.stage.phase == Phase::Running && self.scheduler() != Scheduler::WorkStealing
     }
 
-    /// Whether the run recovers lost atoms (the remedy *leases*).
+    /// Whether the run recovers lost atoms: the adaptive ring with leases, or the farm with leases.
     pub fn mends_losses(&self) -> bool {
         self.header().remedies().has(Remedy::Leases)
     }

@@ -24,8 +24,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::settings::Settings;
 use super::settings::undo::{Gesture, UndoHistory};
+use super::settings::{Settings, milliseconds};
 use crate::balance::NodeId;
 use crate::driver::{Run, cores};
 use crate::language::{Language, say};
@@ -385,6 +385,13 @@ impl Session {
         }
         if self.settings.latency != before.latency {
             self.stage.source.command(Command::Latency(self.settings.latency_time()));
+        }
+        for party in self.settings.parties() {
+            let latency = self.settings.own_link(party).latency;
+            if latency != before.own_link(party).latency {
+                let latency = latency.map(milliseconds);
+                self.stage.source.command(Command::OwnLatency { party, latency });
+            }
         }
         before
     }

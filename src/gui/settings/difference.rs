@@ -1,6 +1,7 @@
 //! A short text of what changed between two settings.
 
 use super::Settings;
+use crate::balance::Party;
 use crate::language::{Language, comma, decimal, say, word};
 use crate::picture::Quality;
 use crate::runlog::Driver;
@@ -52,7 +53,32 @@ impl Settings {
             word!(language, "a wire for each pair of machines", "um cabo para cada par de máquinas")
         };
         add(self.shared_wire != before.shared_wire, wire.into());
+        let own = self.parties().filter(|&of| self.own_link(of) != before.own_link(of)).collect::<Vec<_>>();
+        add(!own.is_empty(), self.own_link_words(&own, language));
         parts.join(", ")
+    }
+
+    /// Describes what these parties have of their own.
+    fn own_link_words(&self, parties: &[Party], language: Language) -> String {
+        let [party] = *parties else {
+            let count = parties.len();
+            return say!(language, "new links of {count} machines", "novos enlaces de {count} máquinas");
+        };
+        let whose = match party {
+            Party::Parent => word!(language, "the parent", "pai").to_owned(),
+            Party::Node(node) => {
+                let name = node + 1;
+                say!(language, "machine {name}", "máquina {name}")
+            }
+        };
+        let own = self.own_link(party);
+        let latency = own.latency.map(|ms| format!("{ms} ms"));
+        let bandwidth = own.bandwidth.map(|kilobytes| format!("{kilobytes} kB/s"));
+        let values = latency.into_iter().chain(bandwidth).collect::<Vec<_>>().join(", ");
+        match values.is_empty() {
+            true => say!(language, "{whose} with a link like the others", "{whose} com um enlace como os outros"),
+            false => say!(language, "{whose} with a link of {values}", "{whose} com um enlace de {values}"),
+        }
     }
 
     /// Describes the difference of the machines: their number, or else their speeds.

@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use super::pace::Pace;
-use super::{Settings, milliseconds};
+use super::{OwnLinkSetting, Settings, milliseconds};
 use crate::balance::{NodeId, Rules, Scheduler, Strategy};
 use crate::driver::auto_pace;
-use crate::runlog::{Driver, Header, LinkSettings, Metadata};
+use crate::runlog::{Driver, Header, LinkSettings, Metadata, OwnLink};
 
 impl Settings {
     /// Returns the header of a run with these settings. `name` and `text` are the scene's; `work` is the time of the
@@ -34,6 +34,8 @@ impl Settings {
                 latency: self.latency_time(),
                 bandwidth: (self.bandwidth > 0).then(|| f64::from(self.bandwidth) * 1e3),
                 shared: self.shared_wire,
+                nodes: self.own_links.iter().take(speeds.len()).map(|own| own_link(*own)).collect(),
+                parent: own_link(self.parent_link),
             },
             handling,
             cores: if self.driver == Driver::Sim { speeds.len() } else { cores },
@@ -46,8 +48,6 @@ impl Settings {
     /// Returns settings for a run like that of this header; `pace` is used if its pace was not full. The window does
     /// not offer two threads a node, so these become one.
     pub fn of(header: &Header, pace: Pace) -> Self {
-        // To the nanosecond, the unit of the header.
-        let millis = |time: Duration| (time.as_secs_f64() * 1e9).round() / 1e6;
         let own = header.speeds.len().saturating_sub(header.spares.into());
         let (speeds, spares) = header.speeds.split_at(own);
         Self {
@@ -63,9 +63,11 @@ impl Settings {
             remedies: header.rules.remedies,
             latency: millis(header.link.latency),
             handling: millis(header.handling),
-            // 0 means no limit, so the lowest limit is 1.
-            bandwidth: header.link.bandwidth.map_or(0, |bandwidth| (bandwidth * 1e-3).ceil().max(1.0) as u32),
+            // 0 means no limit.
+            bandwidth: header.link.bandwidth.map_or(0, kilobytes),
             shared_wire: header.link.shared,
+            own_links: header.link.nodes.iter().map(|own| own_setting(*own)).collect(),
+            parent_link: own_setting(header.link.parent),
             ..Self::default()
         }
     }
@@ -80,4 +82,25 @@ impl Settings {
         let max = if self.driver == Driver::Sim { 1.0 } else { auto_pace(&all, cores) };
         self.pace.fraction(work, speeds.iter().sum(), max)
     }
+}
+
+/// Converts a time to milliseconds, to the nanosecond, the unit of the header.
+fn millis(time: Duration) -> f64 {
+    (time.as_secs_f64() * 1e9).round() / 1e6
+}
+
+/// Converts a bandwidth to kB/s, at least 1.
+fn kilobytes(bandwidth: f64) -> u32 {
+    (bandwidth * 1e-3).ceil().max(1.0) as u32
+}
+
+fn own_link(own: OwnLinkSetting) -> OwnLink {
+    OwnLink {
+        latency: own.latency.map(milliseconds),
+        bandwidth: own.bandwidth.map(|kilobytes| f64::from(kilobytes) * 1e3),
+    }
+}
+
+fn own_setting(own: OwnLink) -> OwnLinkSetting {
+    OwnLinkSetting { latency: own.latency.map(millis), bandwidth: own.bandwidth.map(kilobytes) }
 }

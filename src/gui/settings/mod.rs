@@ -6,6 +6,7 @@ pub mod undo;
 
 mod difference;
 mod header;
+mod own_links;
 
 use std::time::Duration;
 
@@ -15,6 +16,7 @@ use crate::balance::{NodeId, Remedies, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::picture::{Division, Quality, Size};
 use crate::runlog::Driver;
+pub use own_links::OwnLinkSetting;
 use pace::Pace;
 use speed_preset::SpeedPreset;
 
@@ -40,7 +42,7 @@ pub struct Settings {
     /// Speed of each machine, as a fraction of the reference machine, 0 to 1.
     pub speeds: Vec<f64>,
     /// Speed of each spare machine, at most [`Settings::MAX_SPARES`]. Spare machines are off at first and may join the
-    /// adaptive ring.
+    /// adaptive ring or the farm with leases.
     pub spares: Vec<f64>,
     /// Remedies of the adaptive ring.
     pub remedies: Remedies,
@@ -54,6 +56,10 @@ pub struct Settings {
     pub bandwidth: u32,
     /// Whether all machines share one wire; else each pair has its own.
     pub shared_wire: bool,
+    /// What each machine has of its own, spare ones last; machines after the last one have nothing.
+    pub own_links: Vec<OwnLinkSetting>,
+    /// What the parent has of its own.
+    pub parent_link: OwnLinkSetting,
 }
 
 impl Settings {
@@ -119,6 +125,12 @@ impl Settings {
         within_reals(handling, self.handling, 0.0, Self::MAX_HANDLING_MS)?;
         let bandwidth = word!(language, "Bandwidth of a link in kB/s", "Banda de um enlace em kB/s");
         within(bandwidth, self.bandwidth, 0, Self::MAX_BANDWIDTH_KB_S)?;
+        for own in self.own_links.iter().chain([&self.parent_link]) {
+            let latency = word!(language, "A machine's latency in ms", "Latência de uma máquina em ms");
+            within_reals(latency, own.latency.unwrap_or_default(), 0.0, Self::MAX_LATENCY_MS)?;
+            let bandwidth = word!(language, "A machine's bandwidth in kB/s", "Banda de uma máquina em kB/s");
+            within(bandwidth, own.bandwidth.unwrap_or(1), 1, Self::MAX_BANDWIDTH_KB_S)?;
+        }
         if let Pace::Lasts(seconds) = self.pace {
             let name = word!(language, "Seconds of the run", "Segundos da execução");
             within_reals(name, seconds, 1.0, Self::MAX_RUN_S)?;
@@ -153,6 +165,7 @@ impl Settings {
             fixed.speeds = vec![0.0; settings.speeds.len()];
             fixed.spares = vec![0.0; settings.spares.len()];
             (fixed.latency, fixed.seed) = (0.0, 0);
+            fixed.clear_own_latencies();
             fixed
         };
         fixed(self) != fixed(other)
@@ -160,12 +173,15 @@ impl Settings {
 
     /// Sets the number of machines. Machines that stay keep their speeds; new ones run at full speed.
     pub fn set_nodes(&mut self, nodes: usize) {
+        let before = self.speeds.len();
         self.speeds.resize(nodes.clamp(1, Self::MAX_NODES - self.spares.len()), 1.0);
+        self.move_spare_links(before);
     }
 
     /// Sets the number of spare machines, within the limits.
     pub fn set_spares(&mut self, spares: usize) {
         self.spares.resize(spares.min(Self::MAX_SPARES).min(Self::MAX_NODES - self.speeds.len()), 1.0);
+        self.trim_links();
     }
 
     /// Iterates over the speeds of all machines, spare ones last.
@@ -204,7 +220,7 @@ impl Settings {
         match scheduler {
             Scheduler::WorkStealing => {
                 self.driver = Driver::WorkStealing;
-                self.spares.clear();
+                self.set_spares(0);
             }
             Scheduler::Protocol(strategy) => {
                 if self.driver == Driver::WorkStealing {
@@ -212,7 +228,7 @@ impl Settings {
                 }
                 self.part = strategy.usual_part(self.division(), self.speeds.len());
                 self.strategy = strategy;
-                self.set_spares(if self.strategy == Strategy::Adaptive { 1 } else { 0 });
+                self.set_spares(if self.strategy.survives_losses() { 1 } else { 0 });
             }
         }
     }
@@ -224,7 +240,7 @@ impl Settings {
 }
 
 /// Returns the length of time of a setting in milliseconds.
-fn milliseconds(ms: f64) -> Duration {
+pub(super) fn milliseconds(ms: f64) -> Duration {
     // A stored setting may be no number; it is checked, but not before this.
     Duration::try_from_secs_f64(ms / 1e3).unwrap_or_default()
 }
@@ -250,6 +266,8 @@ impl Default for Settings {
             handling: 0.0,
             bandwidth: 0,
             shared_wire: false,
+            own_links: Vec::new(),
+            parent_link: OwnLinkSetting::default(),
         };
         settings.set_preset(SpeedPreset::OneSlow);
         settings
@@ -259,7 +277,7 @@ impl Default for Settings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::balance::Rules;
+    use crate::balance::{Party, Rules};
 
     fn with(change: impl FnOnce(&mut Settings)) -> Settings {
         let mut settings = Settings::default();
@@ -270,11 +288,16 @@ mod tests {
     #[test]
     fn speeds_and_latency_need_no_restart_and_the_rest_does() {
         let default = Settings::default();
-        let at_once: [fn(&mut Settings); 3] = [|s| s.speeds[3] = 0.2, |s| s.latency = 7.5, |s| s.seed = 9];
+        let at_once: [fn(&mut Settings); 4] = [
+            |s| s.speeds[3] = 0.2,
+            |s| s.latency = 7.5,
+            |s| s.seed = 9,
+            |s| s.set_own_link(Party::Node(3), OwnLinkSetting { latency: Some(7.5), bandwidth: None }),
+        ];
         for change in at_once {
             assert!(!with(change).needs_restart(&default));
         }
-        let with_restart: [fn(&mut Settings); 8] = [
+        let with_restart: [fn(&mut Settings); 9] = [
             |s| s.set_nodes(3),
             |s| s.atom = 7,
             |s| s.pace = Pace::Full,
@@ -282,6 +305,7 @@ mod tests {
             |s| s.driver = Driver::Sim,
             |s| s.handling = 2.5,
             |s| s.bandwidth = 100,
+            |s| s.set_own_link(Party::Node(3), OwnLinkSetting { latency: None, bandwidth: Some(7) }),
             |s| s.shared_wire = true,
         ];
         for change in with_restart {
@@ -356,6 +380,8 @@ mod tests {
         let settings = with(|s| {
             s.set_scheduler(Scheduler::Protocol(Strategy::FarmBySpeed));
             (s.driver, s.handling, s.bandwidth, s.shared_wire, s.part) = (Driver::Sim, 20.0, 100, true, 7);
+            s.set_own_link(Party::Node(6), OwnLinkSetting { latency: Some(3.0), bandwidth: Some(2) });
+            s.parent_link.latency = Some(1.0);
         });
         let header = settings.header("", "", Duration::from_millis(300), 2);
         assert_eq!((header.cores, header.link.bandwidth), (8, Some(1e5)));

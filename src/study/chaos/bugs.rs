@@ -1,7 +1,7 @@
 //! Bugs injected on purpose, to show that the checks find bugs.
 
 use super::check::Tamper;
-use crate::balance::{Action, Message, Party};
+use crate::balance::{Action, Message, Party, Strategy};
 
 /// An injected bug.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,12 +10,15 @@ pub(super) enum Bug {
     LostTransfer,
     /// A node forwards an offer twice: the second offer that it forwards.
     ForwardedTwice,
-    /// The parent never hands lost atoms out again.
+    /// The parent of the adaptive ring never hands lost atoms out again.
     LeaseNotReturned,
+    /// The parent of the farm with leases never gives lost atoms out again.
+    PartNotReturned,
 }
 
 impl Bug {
-    pub const ALL: [Self; 3] = [Self::LostTransfer, Self::ForwardedTwice, Self::LeaseNotReturned];
+    pub const ALL: [Self; 4] =
+        [Self::LostTransfer, Self::ForwardedTwice, Self::LeaseNotReturned, Self::PartNotReturned];
 
     /// Returns the bug's name in reports.
     pub fn name(self) -> &'static str {
@@ -23,6 +26,15 @@ impl Bug {
             Self::LostTransfer => "a transfer is lost",
             Self::ForwardedTwice => "an offer is forwarded twice",
             Self::LeaseNotReturned => "lost atoms are never handed out again",
+            Self::PartNotReturned => "in the farm, lost atoms are never given out again",
+        }
+    }
+
+    /// Returns the strategy that gets the bug.
+    pub fn strategy(self) -> Strategy {
+        match self {
+            Self::LostTransfer | Self::ForwardedTwice | Self::LeaseNotReturned => Strategy::Adaptive,
+            Self::PartNotReturned => Strategy::FarmLeases,
         }
     }
 
@@ -42,7 +54,7 @@ impl Bug {
                 {
                     2
                 }
-                (Self::LeaseNotReturned, Message::Again(_)) if party == Party::Parent => 0,
+                (Self::LeaseNotReturned | Self::PartNotReturned, Message::Again(_)) if party == Party::Parent => 0,
                 _ => 1,
             }
         })

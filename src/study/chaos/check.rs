@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::plan::ChaosPlan;
 use crate::balance::adaptive::RingMembers;
-use crate::balance::{Action, Condition, Message, NodeId, OfferDetails, Party, Remedy};
+use crate::balance::{Action, Condition, Message, NodeId, OfferDetails, Party, Remedy, Strategy};
 use crate::picture::{Atom, atoms_in};
 use crate::record::{Record, RecordKind};
 use crate::runlog::ResultsInFlight;
@@ -93,6 +93,8 @@ struct Check<'a> {
     messages: u64,
     atoms_done: u64,
     gone: u64,
+    /// Times that a machine was switched off; at most so many fresh starts follow.
+    switched_off: u64,
     last: Time,
 }
 
@@ -110,6 +112,7 @@ impl<'a> Check<'a> {
             messages: 0,
             atoms_done: 0,
             gone: 0,
+            switched_off: 0,
             last: Time::ZERO,
         }
     }
@@ -126,7 +129,10 @@ impl<'a> Check<'a> {
                 self.atoms_done += 1;
                 self.traced[usize::from(*node)].insert(*atom);
             }
-            RecordKind::Condition { node, condition: Condition::Off } => self.traced[usize::from(*node)].clear(),
+            RecordKind::Condition { node, condition: Condition::Off } => {
+                self.traced[usize::from(*node)].clear();
+                self.switched_off += 1;
+            }
             _ => {}
         }
     }
@@ -173,12 +179,16 @@ impl<'a> Check<'a> {
         Ok(self.totals)
     }
 
-    /// The most messages that the run may need (see `src/balance/adaptive/README.md`).
+    /// The most messages that the run may need (see the READMEs of `balance::adaptive` and `balance::farm_leases`).
     fn bound(&self) -> f64 {
         let nodes = self.plan.header.speeds.len();
         let rules = &self.plan.header.rules;
-        let stops = RingMembers::new(nodes as NodeId, rules.remedies.has(Remedy::Shortcuts)).stops();
         let beats = self.last.secs() / rules.beat.as_secs_f64();
+        if rules.strategy == Strategy::FarmLeases {
+            let moments = nodes as f64 * (beats + 4.0) + 2.0 * self.switched_off as f64;
+            return 4.0 * (self.atoms_done as f64 + moments);
+        }
+        let stops = RingMembers::new(nodes as NodeId, rules.remedies.has(Remedy::Shortcuts)).stops();
         let moments = self.atoms_done as f64 + nodes as f64 * (beats + 2.0) + self.gone as f64;
         3.0 * f64::from(stops + 2) * moments
     }

@@ -7,7 +7,7 @@ use fastrand::Rng;
 use super::super::random::uniform;
 use crate::balance::{Condition, NodeId, Party, Rules, Strategy};
 use crate::picture::Size;
-use crate::runlog::{Driver, Header, LinkSettings};
+use crate::runlog::{Driver, Header};
 use crate::scenario::{Command, Script};
 use crate::time::Time;
 
@@ -29,8 +29,9 @@ pub(super) struct ChaosPlan {
 }
 
 impl ChaosPlan {
-    /// Creates the plan of a seed's run, which is the same on every computer.
-    pub fn new(seed: u64) -> Self {
+    /// Creates the plan of a seed's run, which is the same on every computer: the same machines, costs and failures for
+    /// each strategy.
+    pub fn new(seed: u64, strategy: Strategy) -> Self {
         let mut rng = Rng::with_seed(seed);
         let nodes = *pick(&mut rng, &[1, 2, 3, 4, 5, 6, 8, 12, 24]);
         let atoms = 10f64.powf(uniform(&mut rng, 0.0, 2.6)) as u32;
@@ -40,7 +41,7 @@ impl ChaosPlan {
         let costs =
             (0..atoms).map(|_| Duration::from_secs_f64(mean * 10f64.powf(uniform(&mut rng, -1.0, 1.0)))).collect();
         let speeds: Vec<f64> = (0..nodes).map(|_| speed(&mut rng, if faultless { 0.2 } else { MIN_SPEED })).collect();
-        let mut header = plain(atoms, speeds);
+        let mut header = plain(atoms, strategy, speeds);
         let batches = [None, Some(Duration::ZERO), Some(Rules::BATCH), Some(5 * Rules::BATCH)];
         header.rules.batch = *pick(&mut rng, &batches);
         header.link.latency = latency(&mut rng, faultless);
@@ -48,7 +49,7 @@ impl ChaosPlan {
             // For the same reason a whole picture's results must not delay a message too long.
             let slowest = if faultless { 6.5 } else { 5.0 };
             let bandwidth = Some(10f64.powf(uniform(&mut rng, slowest, 8.0)));
-            header.link = LinkSettings { bandwidth, shared: rng.bool(), ..header.link };
+            (header.link.bandwidth, header.link.shared) = (bandwidth, rng.bool());
             let longest = if faultless { 100 } else { 500 };
             header.handling = Duration::from_micros(rng.u64(0..longest));
         }
@@ -122,10 +123,10 @@ impl ChaosPlan {
     }
 }
 
-fn plain(atoms: u32, speeds: Vec<f64>) -> Header {
+fn plain(atoms: u32, strategy: Strategy, speeds: Vec<f64>) -> Header {
     // No side is 0, and the picture is small.
     let size = Size::new(ATOM_PX, atoms.max(1)).expect("a small picture");
-    Header { driver: Driver::Sim, ..Header::plain(size, ATOM_PX, Strategy::Adaptive, speeds) }
+    Header { driver: Driver::Sim, ..Header::plain(size, ATOM_PX, strategy, speeds) }
 }
 
 /// Picks a node or the parent.

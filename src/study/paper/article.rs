@@ -39,7 +39,11 @@ pub fn over_ideal(strategy: &Strategy, nodes: usize, slow: bool) -> Option<f64> 
         Strategy::Farm => 0,
         Strategy::Static => 1,
         Strategy::Ring => 2,
-        Strategy::Serial | Strategy::StaticEstimate | Strategy::FarmBySpeed | Strategy::Adaptive => return None,
+        Strategy::Serial
+        | Strategy::StaticEstimate
+        | Strategy::FarmBySpeed
+        | Strategy::FarmLeases
+        | Strategy::Adaptive => return None,
     };
     let (.., seconds) = FIGURE_SECONDS.iter().find(|(count, with_slow, _)| (*count, *with_slow) == (nodes, slow))?;
     let speed = if slow { (nodes - 1) as f64 + slow_speed() } else { nodes as f64 };
@@ -67,6 +71,7 @@ impl Network {
                 latency: Duration::from_secs_f64(self.latency * scale),
                 bandwidth: Some(self.bandwidth / scale),
                 shared: true,
+                ..LinkSettings::default()
             },
             rules: Rules {
                 beat: Rules::beat_for(Duration::from_secs_f64(self.handling * scale), header.speeds.len()),

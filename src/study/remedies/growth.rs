@@ -24,8 +24,9 @@ const LATENCY: Duration = Duration::from_millis(1);
 /// Where the work is uneven, nine tenths of it are in this fraction of the picture: one sixteenth.
 const DENSE_PART_DIVISOR: usize = 16;
 /// Strategies that are compared.
-const RIVALS: [(&str, Strategy, Remedies); 3] = [
+const RIVALS: [(&str, Strategy, Remedies); 4] = [
     ("ring", Strategy::Ring, Remedies::ALL),
+    ("farm-leases", Strategy::FarmLeases, Remedies::ALL),
     ("adaptive", Strategy::Adaptive, Remedies::ALL),
     ("without shortcuts", Strategy::Adaptive, Remedies::ALL.without(Remedy::Shortcuts)),
 ];
@@ -153,8 +154,9 @@ pub(super) fn report(report: &mut Report, rows: &[GrowthRow]) {
         let kind = if uneven { "Nine tenths of the work in a sixteenth of the picture" } else { "Work spread evenly" };
         report.line(format!("### {kind}\n"));
         report.line(format!(
-            "| machines | log₂ | {} |\n|--:|--:|--:|--:|--:|",
-            RIVALS.map(|(name, ..)| name).join(" | ")
+            "| machines | log₂ | {} |\n|--:|--:|{}",
+            RIVALS.map(|(name, ..)| name).join(" | "),
+            "--:|".repeat(RIVALS.len())
         ));
         for nodes in NODE_COUNTS {
             let cell = |name| {

@@ -32,21 +32,23 @@ const PICTURE_PX: (u32, u32) = (640, 480);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rival {
     Ring,
+    FarmLeases,
     Adaptive(Remedies),
     Rayon,
 }
 
 impl Rival {
-    /// Returns the rivals measured in virtual time: the ring, the adaptive ring, and the adaptive ring without each
-    /// remedy.
+    /// Returns the rivals measured in virtual time: the ring, the farm with leases, the adaptive ring, and the
+    /// adaptive ring without each remedy.
     pub fn simulated() -> impl Iterator<Item = Self> {
         let without = Remedy::ALL.map(|remedy| Self::Adaptive(Remedies::ALL.without(remedy)));
-        [Self::Ring, Self::Adaptive(Remedies::ALL)].into_iter().chain(without)
+        [Self::Ring, Self::FarmLeases, Self::Adaptive(Remedies::ALL)].into_iter().chain(without)
     }
 
     pub fn name(self) -> String {
         match self {
             Self::Ring => "ring".into(),
+            Self::FarmLeases => "farm-leases".into(),
             Self::Adaptive(Remedies::ALL) => "adaptive".into(),
             Self::Adaptive(remedies) => {
                 let missing = Remedy::ALL.into_iter().filter(|&remedy| !remedies.has(remedy));
@@ -57,7 +59,12 @@ impl Rival {
     }
 
     fn strategy(self) -> Strategy {
-        if self == Self::Ring { Strategy::Ring } else { Strategy::Adaptive }
+        match self {
+            Self::FarmLeases => Strategy::FarmLeases,
+            Self::Adaptive(_) => Strategy::Adaptive,
+            // Rayon ignores the strategy.
+            Self::Ring | Self::Rayon => Strategy::Ring,
+        }
     }
 }
 
@@ -80,7 +87,7 @@ pub(super) struct RemedyRow {
 
 /// Number of steps that [`measure`] takes at most.
 pub(super) fn steps() -> usize {
-    cases().len() * (LATENCIES_MS.len() + RUNS * 2) + RUNS * 2
+    cases().len() * (LATENCIES_MS.len() + RUNS * 3) + RUNS * 2
 }
 
 /// Measures all cases in virtual time and on threads.
@@ -105,7 +112,8 @@ pub(super) fn measure(scene: &Opened, progress: &mut Progress<'_>) -> Result<Vec
         let ends = |rival: &Rival| {
             rows.iter().any(|row| row.case == case.name && row.rival == rival.name() && row.over_bound.is_some())
         };
-        let rivals: Vec<_> = [Rival::Ring, Rival::Adaptive(Remedies::ALL)].into_iter().filter(ends).collect();
+        let all = [Rival::Ring, Rival::FarmLeases, Rival::Adaptive(Remedies::ALL)];
+        let rivals: Vec<_> = all.into_iter().filter(ends).collect();
         let measured = run_on_threads(&fixture(case).scene, case, &rivals, progress)?;
         rows.extend(measured);
     }

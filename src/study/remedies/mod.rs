@@ -1,4 +1,4 @@
-//! The adaptive ring compared with the article's ring, and the gain of each remedy alone.
+//! The adaptive ring compared with the article's ring and the farm with leases, and the gain of each remedy alone.
 
 mod cases;
 mod growth;

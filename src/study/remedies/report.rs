@@ -9,13 +9,13 @@ use crate::view::{Axis, LineChart, Scale, Series, Style, series_hue};
 /// Where a run that never ends is drawn, as makespan / bound.
 const ENDLESS_RATIO: f64 = 10.0;
 
-/// Returns a chart for each remedy: makespan / bound by case, with all remedies and without this one.
+/// Returns charts of makespan / bound by case: the adaptive ring and its rivals, then all remedies and all but one.
 pub(super) fn charts(rows: &[RemedyRow]) -> Vec<(String, LineChart)> {
     let mut charts = Vec::new();
     for latency in LATENCIES_MS {
         let name = |what: &str| format!("{what}-{latency}ms");
-        let title = format!("The article's ring and the adaptive ring, {latency} ms a message");
-        charts.push((name("ring"), chart(rows, latency, title, &["ring", "adaptive"])));
+        let title = format!("The article's ring, the farm with leases and the adaptive ring, {latency} ms a message");
+        charts.push((name("ring"), chart(rows, latency, title, &["ring", "farm-leases", "adaptive"])));
         for remedy in Remedy::ALL {
             let without = format!("without {remedy}");
             let title = format!("Gain of “{remedy}”, {latency} ms a message");
@@ -61,11 +61,11 @@ pub(super) fn report(rows: &[RemedyRow]) -> Report {
          is cut off contributes nothing. In virtual time: the median of five runs with atoms of 40 to 60 pixels. On \
          threads: the median of three runs, taken in turn. ∞ is a run that never ends. In brackets: the worst run.\n",
     );
-    report.line(
-        "| | case | aim | ring, 0 ms | adaptive, 0 ms | ring, 1 ms | adaptive, 1 ms | ring, 10 ms | adaptive, 10 ms | \
-         ring, threads | adaptive, threads |",
-    );
-    report.line("|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
+    let rivals = ["ring", "farm-leases", "adaptive"];
+    let columns = |of: String| rivals.map(|rival| format!("{rival}, {of}")).join(" | ");
+    let simulated = LATENCIES_MS.map(|latency| columns(format!("{latency} ms"))).join(" | ");
+    report.line(format!("| | case | aim | {simulated} | {} |", columns("threads".into())));
+    report.line(format!("|--:|---|--:|{}", "--:|".repeat(rivals.len() * (LATENCIES_MS.len() + 1))));
     for (number, case) in cases().iter().enumerate() {
         let cell = |driver, latency, rival| {
             find(rows, &case.name, driver, latency, rival).map_or("–".into(), |row| {
@@ -75,9 +75,9 @@ pub(super) fn report(rows: &[RemedyRow]) -> Report {
                 }
             })
         };
-        let simulated = LATENCIES_MS
-            .map(|latency| format!("{} | {}", cell("sim", latency, "ring"), cell("sim", latency, "adaptive")));
-        let threads = [cell("threads", 0.0, "ring"), cell("threads", 0.0, "adaptive")].join(" | ");
+        let cells = |driver, latency| rivals.map(|rival| cell(driver, latency, rival)).join(" | ");
+        let simulated = LATENCIES_MS.map(|latency| cells("sim", latency));
+        let threads = cells("threads", 0.0);
         report.line(format!(
             "| {} | {} | {:.2} | {} | {threads} |",
             number + 1,

@@ -1,8 +1,10 @@
 //! Sentences for the events of a run.
 
+use std::time::Duration;
+
 use super::happening::{Happening, OfferReason, PauseEffect, Retirement, SpeedEffect};
 use super::transfer_sentences;
-use crate::balance::{NodeId, Scheduler, Strategy};
+use crate::balance::{NodeId, Party, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::view::text::format::{atoms_words, counted, duration, fraction, names, node_name};
 
@@ -80,7 +82,33 @@ impl Happening {
                     say!(language, "{what} now takes {takes}", "{what} agora leva {takes}")
                 }
             }
+            &Self::OwnLatency { party, latency } => own_latency(language, party, latency),
             Self::Failure(failure) => failure.sentence(language),
+        }
+    }
+}
+
+fn own_latency(language: Language, party: Party, latency: Option<Duration>) -> String {
+    let whose = match party {
+        Party::Parent => word!(language, "the parent", "o pai").to_owned(),
+        Party::Node(node) => {
+            let name = node_name(node);
+            say!(language, "machine {name}", "a máquina {name}")
+        }
+    };
+    match latency {
+        None => say!(
+            language,
+            "A message from or to {whose} takes no longer than usual now",
+            "Uma mensagem entre {whose} e as outras não demora mais que o usual agora"
+        ),
+        Some(latency) => {
+            let takes = duration(latency, language);
+            say!(
+                language,
+                "A message from or to {whose} now takes at least {takes}",
+                "Uma mensagem entre {whose} e as outras agora leva ao menos {takes}"
+            )
         }
     }
 }
@@ -237,6 +265,11 @@ fn speed(language: Language, node: NodeId, speed: f64, effect: SpeedEffect) -> S
         SpeedEffect::AsksLess => Some(word!(language, "it will ask less often", "vai pedir menos vezes")),
         SpeedEffect::AsksMore => Some(word!(language, "it will ask more often", "vai pedir mais vezes")),
         SpeedEffect::KeepsPart => Some(word!(language, "it keeps its atoms", "fica com seus átomos")),
+        SpeedEffect::PartReturns => Some(word!(
+            language,
+            "after a long time the parent gives its atoms out again",
+            "depois de muito tempo o pai dá de novo seus átomos"
+        )),
         SpeedEffect::OthersHelp => {
             Some(word!(language, "the others will take over its work", "as outras vão assumir seu trabalho"))
         }
@@ -259,6 +292,11 @@ fn paused(language: Language, node: NodeId, atoms: u32, effect: PauseEffect) -> 
         PauseEffect::KeepsPart => {
             say!(language, "{paused} and keeps the {atoms} of its part", "{paused} e fica com {atoms} de sua parte")
         }
+        PauseEffect::PartReturns => say!(
+            language,
+            "{paused} with {atoms}: after a long time the parent gives them out again",
+            "{paused} com {atoms}: depois de muito tempo o pai os dá de novo"
+        ),
         PauseEffect::NobodyHelps => say!(
             language,
             "{paused} with {atoms}: nobody will take over its work",

@@ -50,7 +50,7 @@ impl Failure {
             (Condition::Off, _) => Self::SwitchedOff { node, atoms: machine.lost_atoms, is_recovered },
             (Condition::Hung, _) => Self::Hung { node, atoms: machine.left(), is_recovered },
             (Condition::CutOff, _) => Self::CutOff(node),
-            (Condition::Well, Condition::Off) if !state.scheduler.is_adaptive() => Self::RestartedOutside(node),
+            (Condition::Well, Condition::Off) if !state.scheduler.survives_losses() => Self::RestartedOutside(node),
             (Condition::Well, Condition::Off) if machine.last_heard.is_none() => Self::Joined(node),
             (Condition::Well, Condition::Off) => Self::Restarted(node),
             (Condition::Well, Condition::CutOff) => Self::Reachable(node),

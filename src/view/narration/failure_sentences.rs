@@ -236,6 +236,7 @@ mod tests {
     /// All sentences of the list of events, in a run of four machines with `script`.
     fn story(strategy: Strategy, speeds: &[f64], script: &[(f64, Command)]) -> Vec<String> {
         let mut header = sample_runs::header(speeds, 900);
+        header.rules.part = strategy.usual_part(header.division, speeds.len());
         header.rules.strategy = strategy;
         let script: Vec<_> = script.iter().map(|&(at, command)| (Time::from_secs(at), command)).collect();
         let (mut state, mut narrator, mut sentences) = (RunState::new(&header), Narrator::default(), Vec::new());
@@ -270,6 +271,16 @@ mod tests {
         has(&sentences, "The parent hears from machine 3 again: the ring opens for it", "");
         let bands = sentences.iter().filter(|sentence| sentence.contains("band of the picture")).count();
         assert_eq!(bands, 1, "a machine that is let in gets no band: {sentences:#?}");
+    }
+
+    #[test]
+    fn farm_with_leases_tells_how_it_recovers() {
+        let sentences = story(Strategy::FarmLeases, &[1.0; 4], &[(1.0, OFF), (2.0, WELL)]);
+        has(&sentences, "Machine 3 is switched off with ", " out again");
+        has(&sentences, "Machine 3 starts again and asks the parent to let it in", "");
+        let bands = sentences.iter().filter(|sentence| sentence.contains("a first part")).count();
+        assert_eq!(bands, 1, "a machine that is let in gets no first part: {sentences:#?}");
+        assert!(sentences.iter().any(|sentence| sentence.contains("out again to machine")), "{sentences:#?}");
     }
 
     #[test]

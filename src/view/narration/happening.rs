@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::failure::Failure;
-use crate::balance::{NodeId, PIPE_ATOMS, Remedy, Scheduler};
+use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy, Scheduler};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
 use crate::view::state::node_state::NodeState;
@@ -54,8 +54,10 @@ pub enum Happening {
     Paused { node: NodeId, atoms: u32, effect: PauseEffect },
     /// A machine's pause is over; its speed may still be 0.
     Resumed { node: NodeId, is_stopped: bool },
-    /// The latency of all links is changed.
+    /// The latency of all nodes that have none of their own is changed.
     Latency { latency: Duration, is_hop: bool },
+    /// A party's own latency is changed.
+    OwnLatency { party: Party, latency: Option<Duration> },
     /// A machine or a link fails, or the ring recovers.
     Failure(Failure),
 }
@@ -114,6 +116,8 @@ pub enum SpeedEffect {
     AsksMore,
     /// The machine keeps its atoms.
     KeepsPart,
+    /// The parent will give the machine's atoms out again, after a long time.
+    PartReturns,
     /// The other machines take over the machine's work.
     OthersHelp,
     /// The machine can take more work.
@@ -127,6 +131,8 @@ pub enum PauseEffect {
     None,
     /// The machine keeps its atoms: they are its part of a farm.
     KeepsPart,
+    /// The parent will give the machine's part out again, after a long time.
+    PartReturns,
     /// The atoms wait: no machine takes over atoms of a band.
     NobodyHelps,
     /// The atoms are in the machine's pipe and stay there.
@@ -147,6 +153,7 @@ impl Happening {
             RecordKind::Paused { node } => Self::paused(state, *node),
             RecordKind::Resumed { node } => Self::resumed(state, *node),
             RecordKind::LatencySet { latency } => Self::latency(state, *latency),
+            RecordKind::OwnLatencySet { party, latency } => Self::OwnLatency { party: *party, latency: *latency },
             RecordKind::Condition { node, .. } => Self::Failure(Failure::condition(state, *node)?),
             RecordKind::Delayed { from, to, until } => {
                 Self::Failure(Failure::Delayed { from: *from, to: *to, by: until.since(record.at) })
@@ -225,6 +232,7 @@ impl Happening {
             }
             Ordering::Less if state.scheduler.is_fixed() => SpeedEffect::NobodyHelps,
             Ordering::Greater if state.scheduler.is_fixed() => SpeedEffect::BandSooner,
+            _ if state.scheduler.is_farm() && speed == 0.0 && state.has(Remedy::Leases) => SpeedEffect::PartReturns,
             _ if state.scheduler.is_farm() && speed == 0.0 => SpeedEffect::KeepsPart,
             Ordering::Less if state.scheduler.is_farm() => SpeedEffect::AsksLess,
             Ordering::Greater if state.scheduler.is_farm() => SpeedEffect::AsksMore,
@@ -243,6 +251,7 @@ impl Happening {
         let atoms = machine.left();
         let effect = match atoms {
             0 if !state.scheduler.is_ring() && state.scheduler != Scheduler::WorkStealing => PauseEffect::None,
+            _ if state.scheduler.is_farm() && state.has(Remedy::Leases) => PauseEffect::PartReturns,
             _ if state.scheduler.is_farm() => PauseEffect::KeepsPart,
             _ if state.scheduler.is_fixed() => PauseEffect::NobodyHelps,
             1..=PIPE_ATOMS if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,
@@ -257,7 +266,7 @@ impl Happening {
         Self::Resumed { node, is_stopped: machine(state, node).is_some_and(|machine| machine.speed == 0.0) }
     }
 
-    /// Describes a new latency of all links.
+    /// Describes a new latency of all nodes.
     pub(crate) fn latency(state: &RunState, latency: Duration) -> Self {
         Self::Latency { latency, is_hop: state.scheduler.is_ring() }
     }

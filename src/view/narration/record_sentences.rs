@@ -80,6 +80,7 @@ pub fn record_words(record: &Record, state: &RunState, language: Language) -> St
         | RecordKind::Paused { .. }
         | RecordKind::Resumed { .. }
         | RecordKind::LatencySet { .. }
+        | RecordKind::OwnLatencySet { .. }
         | RecordKind::Condition { .. }
         | RecordKind::Delayed { .. }
         | RecordKind::Retired { .. }

@@ -62,7 +62,7 @@ pub enum Cargo {
     Sleeps,
     /// A list of a node's atoms, for the parent.
     Beat,
-    /// A message about losses, from or to the parent.
+    /// A message about losses or a fresh start, from or to the parent.
     Notice,
     /// The end of the run.
     Shutdown,
@@ -85,7 +85,7 @@ impl Flight {
             Message::Again(ranges) => Cargo::Again(ranges.clone()),
             Message::Wake => Cargo::Wake,
             Message::Beat { .. } => Cargo::Beat,
-            Message::Gone(_) | Message::Placed(_) | Message::Failed(_) => Cargo::Notice,
+            Message::Join | Message::Gone(_) | Message::Placed(_) | Message::Failed(_) => Cargo::Notice,
             Message::Shutdown => Cargo::Shutdown,
         };
         Self { id, from, to, cargo, sent, arrives, rate: 1.0, lost: None, held: None }

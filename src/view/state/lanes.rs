@@ -98,7 +98,8 @@ impl Lanes {
             RecordKind::Received { .. }
             | RecordKind::Estimating
             | RecordKind::Estimated { .. }
-            | RecordKind::LatencySet { .. } => {}
+            | RecordKind::LatencySet { .. }
+            | RecordKind::OwnLatencySet { .. } => {}
             RecordKind::AtomStarted { node, atom } => {
                 if let Some(lane) = self.lane(*node) {
                     lane.open = Some((*atom, at));

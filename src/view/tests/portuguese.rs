@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::sample_runs;
-use crate::balance::{Condition, NodeId, Rules, Scheduler, Strategy};
+use crate::balance::{Condition, NodeId, Party, Rules, Scheduler, Strategy};
 use crate::language::Language;
 use crate::picture::{Difference, Quality, Size};
 use crate::record::RecordKind;
@@ -147,6 +147,9 @@ fn runs() -> Vec<RunLog> {
             (2.5, Command::Latency(Duration::from_millis(7))),
             (3.0, Command::Pause { node: 0, paused: false }),
             (3.5, Command::Latency(Duration::ZERO)),
+            (3.6, Command::OwnLatency { party: Party::Node(0), latency: Some(Duration::from_millis(50)) }),
+            (3.7, Command::OwnLatency { party: Party::Node(0), latency: None }),
+            (3.8, Command::OwnLatency { party: Party::Parent, latency: Some(Duration::from_millis(5)) }),
             (4.0, Command::Speed { node: 1, speed: 1.0 }),
             (5.0, Command::Speed { node: 2, speed: 0.0 }),
             (9.0, Command::Pause { node: 1, paused: true }),
@@ -167,14 +170,19 @@ fn runs() -> Vec<RunLog> {
             for script in hands {
                 let plain = sample_runs::header(speeds, 900);
                 let part = strategy.usual_part(plain.division, speeds.len());
-                let rules = Rules { strategy: strategy.clone(), part, ..plain.rules };
-                let header = Header { rules, driver, handling: Duration::from_millis(handling), ..plain };
+                let handling = Duration::from_millis(handling);
+                // With more beats a slow parent would have no time for requests.
+                let beat = Rules::beat_for(handling, speeds.len());
+                let rules = Rules { strategy: strategy.clone(), part, beat, ..plain.rules };
+                let header = Header { rules, driver, handling, ..plain };
                 let script: Vec<_> = script.iter().map(|&(at, command)| (Time::from_secs(at), command)).collect();
                 let fits = |(_, command): &&(Time, Command)| match command {
                     Command::Speed { node, .. } | Command::Pause { node, .. } | Command::Condition { node, .. } => {
                         usize::from(*node) < speeds.len()
                     }
-                    Command::Delay { .. } | Command::Latency(_) | Command::Link { .. } => true,
+                    Command::Delay { .. } | Command::Latency(_) | Command::OwnLatency { .. } | Command::Link { .. } => {
+                        true
+                    }
                 };
                 let script: Vec<_> = script.iter().filter(fits).copied().collect();
                 let mut records = Vec::new();

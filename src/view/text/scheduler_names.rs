@@ -12,6 +12,7 @@ impl Scheduler {
             Self::Protocol(Strategy::StaticEstimate) => word!(language, "Estimated bands", "Estática estimada"),
             Self::Protocol(Strategy::Farm) => word!(language, "Farm", "Dinâmica"),
             Self::Protocol(Strategy::FarmBySpeed) => word!(language, "Farm by speed", "Dinâmica por velocidade"),
+            Self::Protocol(Strategy::FarmLeases) => word!(language, "Farm with leases", "Dinâmica com prazos"),
             Self::Protocol(Strategy::Ring) => word!(language, "Ring", "Anel"),
             Self::Protocol(Strategy::Adaptive) => word!(language, "Adaptive ring", "Anel adaptativo"),
             Self::WorkStealing => word!(language, "Work stealing (rayon)", "Roubo de trabalho (rayon)"),
@@ -44,6 +45,9 @@ impl Scheduler {
             Self::Protocol(Strategy::FarmBySpeed) => {
                 word!(language, "A farm; slow machines get smaller parts", "Idem; as lentas recebem partes menores")
             }
+            Self::Protocol(Strategy::FarmLeases) => {
+                word!(language, "A farm; gives lost parts out again", "Idem; dá de novo as partes perdidas")
+            }
             Self::Protocol(Strategy::Ring) => {
                 word!(
                     language,
@@ -75,6 +79,9 @@ impl Scheduler {
             }
             Self::Protocol(Strategy::Farm | Strategy::FarmBySpeed) => {
                 word!(language, "machines in a farm", "máquinas que pedem ao pai")
+            }
+            Self::Protocol(Strategy::FarmLeases) => {
+                word!(language, "machines in a farm with leases", "máquinas que pedem ao pai, com prazos")
             }
             Self::Protocol(Strategy::Ring) => word!(language, "machines in a ring", "máquinas em anel"),
             Self::Protocol(Strategy::Adaptive) => {

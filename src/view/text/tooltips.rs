@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::format::{
     TimeScale, activity_word, atoms_words, count, counted, duration, fraction, node_name, party_name, percent,
-    rate_words, time_words,
+    rate_words, time_words, two_digits,
 };
 use crate::balance::{Condition, NodeId, Party, Scheduler};
 use crate::language::{Language, say, word};
@@ -33,6 +33,7 @@ pub(crate) enum Fact {
     Offers,
     Gave,
     Shares,
+    Link,
 }
 
 impl Fact {
@@ -53,6 +54,7 @@ impl Fact {
             Self::Offers => word!(language, "offers", "ofertas"),
             Self::Gave => word!(language, "gave", "deu"),
             Self::Shares => word!(language, "shares", "divide"),
+            Self::Link => word!(language, "own link", "enlace próprio"),
         }
     }
 }
@@ -81,7 +83,27 @@ pub(crate) fn node_facts(state: &RunState, node: NodeId, now: Time, language: La
         (Fact::Idle, Some(fraction(row.idle))),
     ];
     facts.extend(shared_facts(state.scheduler(), of, language));
+    facts.extend(own_link_words(state, Party::Node(node), language).map(|own| (Fact::Link, Some(own))));
     facts
+}
+
+/// Returns the latency and the bandwidth that a party has of its own; `None` if it has none.
+fn own_link_words(state: &RunState, party: Party, language: Language) -> Option<String> {
+    let own = state.own_link(party);
+    let latency = own.latency.map(|latency| duration(latency, language));
+    let bandwidth = own.bandwidth.map(|bandwidth| format!("{} kB/s", two_digits(bandwidth * 1e-3, language)));
+    let words: Vec<String> = latency.into_iter().chain(bandwidth).collect();
+    (!words.is_empty()).then(|| words.join(", "))
+}
+
+/// Returns the time that messages of nodes travel; a range if some nodes have a latency of their own.
+fn latency_words(state: &RunState, language: Language) -> String {
+    let (least, most) = state.latency_range();
+    if least == most {
+        return duration(most, language);
+    }
+    let (least, most) = (duration(least, language), duration(most, language));
+    say!(language, "{least} to {most}", "{least} a {most}")
 }
 
 /// Returns facts about the atoms that a node has got from others and given to them.
@@ -145,13 +167,14 @@ pub fn parent_words(state: &RunState, now: Time, language: Language) -> Vec<(&'s
     } else {
         word!(language, "a message takes", "uma mensagem leva")
     };
-    words.push((way, duration(state.latency(), language)));
+    words.push((way, latency_words(state, language)));
+    words.extend(own_link_words(state, Party::Parent, language).map(|own| (Fact::Link.name(language), own)));
     words
 }
 
 /// Returns notes on the drawing of the ring, one on each line.
 pub fn drawing_notes(state: &RunState, language: Language) -> Vec<String> {
-    let (takes, handling) = (duration(state.latency(), language), duration(state.handling, language));
+    let (takes, handling) = (latency_words(state, language), duration(state.handling, language));
     let mut lines =
         vec![word!(language, "some atoms take longer than others", "alguns átomos demoram mais que outros").to_owned()];
     match state.scheduler() {
@@ -163,7 +186,7 @@ pub fn drawing_notes(state: &RunState, language: Language) -> Vec<String> {
             )
             .into(),
         ),
-        _ if state.latency().is_zero() && state.handling.is_zero() => {}
+        _ if state.latency_range().1.is_zero() && state.handling.is_zero() => {}
         scheduler if scheduler.is_ring() => {
             lines.push(say!(language, "an offer takes {takes} a hop", "uma oferta leva {takes} por salto"));
         }

@@ -26,7 +26,7 @@ pub enum MarkerKind {
     Pause(NodeId),
     /// A machine failed, or is well again.
     Condition(NodeId, Condition),
-    /// The latency was changed.
+    /// A latency was changed.
     Latency,
     /// A machine retired.
     Retired(NodeId),
@@ -45,7 +45,7 @@ impl Markers {
             RecordKind::SpeedSet { node, .. } => MarkerKind::Speed(*node),
             RecordKind::Paused { node } | RecordKind::Resumed { node } => MarkerKind::Pause(*node),
             RecordKind::Condition { node, condition } => MarkerKind::Condition(*node, *condition),
-            RecordKind::LatencySet { .. } => MarkerKind::Latency,
+            RecordKind::LatencySet { .. } | RecordKind::OwnLatencySet { .. } => MarkerKind::Latency,
             RecordKind::Retired { node } => MarkerKind::Retired(*node),
             RecordKind::Finished => MarkerKind::Complete,
             _ => return,

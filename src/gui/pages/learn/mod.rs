@@ -229,7 +229,7 @@ impl Learn {
             if let Some(lesson) = chosen {
                 self.prepare(lesson, session);
             }
-            ui.add_space(2.0 * GRID);
+            ui.add_space(GRID);
             self.own_lesson(ui, session, look);
         });
     }
@@ -278,7 +278,7 @@ fn group(
     ui.add_space(GRID);
     ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.quiet));
     // With this distance all lessons are visible in a window of 1280 × 800.
-    ui.spacing_mut().item_spacing.y = 2.0;
+    ui.spacing_mut().item_spacing.y = 0.0;
     let mut chosen = None;
     for (number, lesson) in (number..).zip(lessons) {
         if entry(ui, number, lesson, look, language) {
@@ -294,7 +294,7 @@ fn entry(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look, language: Lang
     let indent = 6.0 * GRID;
     let about = lesson.about.in_language(language).to_owned();
     let about = ui.painter().layout(about, theme::regular(theme::BODY), look.quiet, wide - indent - GRID);
-    let (rect, response) = ui.allocate_exact_size(vec2(wide, 4.75 * GRID + about.size().y), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(wide, 4.0 * GRID + about.size().y), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, lesson.title.in_language(language)));
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, look.raised);
@@ -303,9 +303,9 @@ fn entry(ui: &mut Ui, number: usize, lesson: &Lesson, look: Look, language: Lang
     let left = rect.left() + indent;
     let middle = pos2(rect.left() + 0.5 * indent, rect.center().y);
     painter.text(middle, egui::Align2::CENTER_CENTER, number, theme::strong(theme::LARGE), look.accent);
-    let title = pos2(left, rect.top() + 2.25 * GRID);
+    let title = pos2(left, rect.top() + 1.9 * GRID);
     painter.text(title, egui::Align2::LEFT_CENTER, lesson.title.in_language(language), theme::strong(18.0), look.text);
-    painter.galley(pos2(left, rect.top() + 3.75 * GRID), about, look.quiet);
+    painter.galley(pos2(left, rect.top() + 3.4 * GRID), about, look.quiet);
     response.clicked()
 }
 

@@ -1,5 +1,6 @@
 //! The settings at the left: those that take effect at once, and those that restart the run.
 
+mod own_links;
 mod sharing;
 
 use egui::{ComboBox, Label, Popup, PopupCloseBehavior, RichText, ScrollArea, Ui, WidgetInfo};
@@ -78,7 +79,8 @@ impl SetupPanel {
         if is_busy && draft.needs_restart(session.settings()) {
             self.draft = Some(draft);
         } else if draft != *session.settings() {
-            let gesture = if draft.latency == session.settings().latency { Gesture::Once } else { Gesture::Latency };
+            let of = |settings: &Settings| (settings.latency, settings.own_links.clone(), settings.parent_link);
+            let gesture = if of(&draft) == of(session.settings()) { Gesture::Once } else { Gesture::Latency };
             session.change(gesture, |settings| *settings = draft);
         }
     }

@@ -3,6 +3,7 @@
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Button, ComboBox, Popup, PopupCloseBehavior, Response, RichText, TextWrapMode, Ui, WidgetInfo, vec2};
 
+use super::own_links::own_links;
 use super::{VALUE_WIDTH_PT, explanation, high_row, labelled_row};
 use crate::balance::{Remedy, Scheduler, Strategy};
 use crate::gui::settings::Settings;
@@ -88,7 +89,7 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             number_field(ui, &mut draft.part, 1..=10_000, suffix, VALUE_WIDTH_PT, (name, language));
         });
     });
-    if is_adaptive {
+    if on.survives_losses() {
         spares(ui, draft, look, language);
     }
 }
@@ -118,6 +119,7 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
                     "Uma Ethernet de 1997 levava no máximo 1250 kB/s. 0 significa sem limite"
                 ),
             );
+            own_links(ui, draft, look, language);
         });
         if draft.bandwidth > 0 {
             let text = word!(language, "All share one wire", "Todos num só cabo");

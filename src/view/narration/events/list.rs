@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use crate::balance::NodeId;
+use crate::balance::{NodeId, Party};
 use crate::time::Time;
 use crate::view::narration::happening::Happening;
 
@@ -48,6 +48,8 @@ pub(super) enum EventKind {
     Paused,
     /// The latency is changed.
     Latency,
+    /// A party's own latency is changed.
+    OwnLatency(Party),
     /// A machine or a link fails, or works again.
     Condition,
     /// The parent takes machines out of the ring, or back into it.

@@ -81,6 +81,11 @@ impl EventLog {
                 self.take(at, |kind| *kind == EventKind::Latency);
                 self.add(at, EventKind::Latency, Happening::latency(state, *latency));
             }
+            RecordKind::OwnLatencySet { party, latency } => {
+                self.take(at, |kind| *kind == EventKind::OwnLatency(*party));
+                let happening = Happening::OwnLatency { party: *party, latency: *latency };
+                self.add(at, EventKind::OwnLatency(*party), happening);
+            }
             RecordKind::Retired { node } => {
                 let nodes = self.take_nodes(at, *node, |kind| match kind {
                     EventKind::Retired(nodes) => Some(nodes),

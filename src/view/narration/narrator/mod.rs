@@ -62,6 +62,7 @@ impl Narrator {
                 | RecordKind::Paused { .. }
                 | RecordKind::Resumed { .. }
                 | RecordKind::LatencySet { .. }
+                | RecordKind::OwnLatencySet { .. }
                 | RecordKind::Condition { .. }
         );
         let event = if is_user_change {
@@ -160,8 +161,16 @@ fn weigh(record: &Record, state: &RunState) -> Option<(Weight, Happening)> {
             ((1, 0), Happening::offer(state, *from, false, message.own_offer(*from)?))
         }
         // A node that is called back or let in gets an empty band.
-        RecordKind::Sent { message: Message::Band(band), .. } if band.is_empty() && state.scheduler.is_adaptive() => {
+        RecordKind::Sent { message: Message::Band(band), .. }
+            if band.is_empty() && state.scheduler.survives_losses() =>
+        {
             return None;
+        }
+        // A machine that has started afresh gets a part of the farm with the scene.
+        RecordKind::Sent { to: Party::Node(to), message: Message::Band(band), .. }
+            if state.scheduler.is_farm() && state.done() > 0 =>
+        {
+            ((1, 0), Happening::Part { to: *to, atoms: band.len() as u32 })
         }
         RecordKind::Sent { from: Party::Parent, message: Message::Band(band), .. } => {
             ((2, 0), Happening::bands(state, band))

@@ -2,13 +2,12 @@
 
 use super::deadlock::deadlock_words;
 use super::phrases::{
-    Machine, atoms_on_their_way, computing, last_computing, machines_wait_for_parent, single_machine,
+    Machine, atoms_on_their_way, computing, last_computing, machines_wait_for_parent, single_machine, unreachable_atoms,
 };
 use super::stopped::{all_stand_still, stop_reason};
 use crate::balance::{Condition, NodeId, Remedy};
 use crate::language::{Language, say, word};
 use crate::view::narration::happening::Happening;
-use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, names, node_name};
@@ -86,23 +85,8 @@ fn nobody_computes(state: &RunState, there: &[Machine<'_>], language: Language) 
     if let Some(words) = deadlock_words(state, language) {
         return words;
     }
-    let lost = state.atom_states().iter().filter(|place| **place == AtomState::Lost).count() as u32;
-    let with_failed = |(_, node): &&Machine<'_>| node.condition != Condition::Well;
-    let kept: u32 = there.iter().filter(with_failed).map(|(_, node)| node.left()).sum();
-    if lost + kept > 0 && state.has(Remedy::Leases) {
-        let atoms = atoms_words(lost + kept, language);
-        return match lost + kept {
-            1 => say!(
-                language,
-                "{atoms} is on an unreachable machine; the parent will hand it out again",
-                "{atoms} está numa máquina inacessível; o pai vai dá-lo de novo"
-            ),
-            _ => say!(
-                language,
-                "{atoms} are on unreachable machines; the parent will hand them out again",
-                "{atoms} estão em máquinas inacessíveis; o pai vai dá-los de novo"
-            ),
-        };
+    if let Some(words) = unreachable_atoms(state, there, language) {
+        return words;
     }
     let still: Vec<Machine<'_>> = there.iter().copied().filter(|(_, node)| node.left() > 0).collect();
     match *still {

@@ -1,4 +1,4 @@
-//! Sentences for a run that hangs because a machine has failed: the reason, and which ring recovers from it.
+//! Sentences for a run that hangs because a machine has failed: the reason, and which strategy recovers from it.
 
 use crate::balance::{Condition, NodeId, Party, Remedy, Scheduler, Strategy};
 use crate::language::{Language, say, word};
@@ -63,7 +63,7 @@ pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<Stri
     }
 }
 
-/// Says which ring recovers from a failure.
+/// Says which strategy recovers from a failure.
 fn recovery_words(state: &RunState, language: Language) -> &'static str {
     if state.scheduler.is_adaptive() {
         word!(language, "without leases this ring cannot recover", "sem prazos este anel não se recupera")
@@ -73,7 +73,17 @@ fn recovery_words(state: &RunState, language: Language) -> &'static str {
             "the article's ring cannot recover, the adaptive ring can",
             "o anel do artigo não se recupera, o adaptativo sim"
         )
+    } else if state.scheduler.is_farm() {
+        word!(
+            language,
+            "this farm cannot recover, the farm with leases can",
+            "esta divisão dinâmica não se recupera, a com prazos sim"
+        )
     } else {
-        word!(language, "only the adaptive ring can recover", "só o anel adaptativo se recupera")
+        word!(
+            language,
+            "the adaptive ring and the farm with leases can recover",
+            "o anel adaptativo e a dinâmica com prazos se recuperam"
+        )
     }
 }

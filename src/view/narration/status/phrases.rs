@@ -1,9 +1,11 @@
 //! Phrases that the sentences of several strategies share.
 
-use crate::balance::NodeId;
+use crate::balance::{Condition, NodeId, Remedy};
 use crate::language::{Language, say, word};
+use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
-use crate::view::text::format::{left_words, node_name};
+use crate::view::state::run_state::RunState;
+use crate::view::text::format::{atoms_words, left_words, node_name};
 
 /// A node and its state.
 pub(crate) type Machine<'a> = (NodeId, &'a NodeState);
@@ -37,6 +39,30 @@ pub(crate) fn computing(some: usize, all: usize, what: &str, language: Language)
         1 => say!(language, "1 of {all} {what} computes", "1 de {all} {what} calcula"),
         _ => say!(language, "{some} of {all} {what} compute", "{some} de {all} {what} calculam"),
     }
+}
+
+/// Says that nobody computes because the missing atoms are on machines that have failed, of those in the run; `None`
+/// if that is not so, or if the parent will not hand them out again.
+pub(crate) fn unreachable_atoms(state: &RunState, there: &[Machine<'_>], language: Language) -> Option<String> {
+    let lost = state.atom_states().iter().filter(|place| **place == AtomState::Lost).count() as u32;
+    let with_failed = |(_, node): &&Machine<'_>| node.condition != Condition::Well;
+    let kept: u32 = there.iter().filter(with_failed).map(|(_, node)| node.left()).sum();
+    if lost + kept == 0 || !state.has(Remedy::Leases) {
+        return None;
+    }
+    let atoms = atoms_words(lost + kept, language);
+    Some(match lost + kept {
+        1 => say!(
+            language,
+            "{atoms} is on an unreachable machine; the parent will hand it out again",
+            "{atoms} está numa máquina inacessível; o pai vai dá-lo de novo"
+        ),
+        _ => say!(
+            language,
+            "{atoms} are on unreachable machines; the parent will hand them out again",
+            "{atoms} estão em máquinas inacessíveis; o pai vai dá-los de novo"
+        ),
+    })
 }
 
 /// Adds to `compute` the machine that has the most atoms left.

@@ -152,7 +152,7 @@ fn end(strategy: Strategy, condition: Condition, language: Language) -> RunState
 }
 
 #[test]
-fn ring_that_hangs_says_why_and_which_ring_recovers() {
+fn run_that_hangs_says_why_and_which_strategy_recovers() {
     let language = Language::English;
     let remedy = "the article's ring cannot recover, the adaptive ring can";
     for (condition, why) in
@@ -167,6 +167,10 @@ fn ring_that_hangs_says_why_and_which_ring_recovers() {
         );
     }
     let words = status_sentence(&end(Strategy::Static, Condition::Off, language), language);
-    assert_eq!(words, "The run hangs because 2 is off: only the adaptive ring can recover");
-    assert!(end(Strategy::Adaptive, Condition::Off, language).finished().is_some());
+    assert_eq!(words, "The run hangs because 2 is off: the adaptive ring and the farm with leases can recover");
+    let words = status_sentence(&end(Strategy::Farm, Condition::Off, language), language);
+    assert_eq!(words, "The run hangs because 2 is off: this farm cannot recover, the farm with leases can");
+    for strategy in [Strategy::FarmLeases, Strategy::Adaptive] {
+        assert!(end(strategy, Condition::Off, language).finished().is_some());
+    }
 }

@@ -18,7 +18,7 @@ impl RunState {
         for atom in atoms.clone() {
             match self.atoms[atom as usize].place() {
                 true => {}
-                false if self.scheduler.is_adaptive() => self.count_late(atom, from, at),
+                false if self.scheduler.survives_losses() => self.count_late(atom, from, at),
                 false => _ = self.placed_early.insert(atom),
             }
         }

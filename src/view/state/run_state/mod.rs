@@ -14,7 +14,7 @@ use super::node_state::{NodeState, Parcels};
 use crate::balance::{NodeId, Party, Remedies, Remedy, Scheduler};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, RecordKind};
-use crate::runlog::{Driver, Header};
+use crate::runlog::{Driver, Header, LinkSettings, OwnLink};
 use crate::time::Time;
 
 /// State of a run after some of its records.
@@ -44,7 +44,7 @@ pub struct RunState {
     remedies: Remedies,
     /// Whether the run is in virtual time, so that the whole picture is traced before the run begins.
     pub(crate) is_virtual: bool,
-    latency: Duration,
+    link: LinkSettings,
     /// Time for which the parent is busy with each message.
     pub(crate) handling: Duration,
     arrived: Arrived,
@@ -89,7 +89,7 @@ impl RunState {
             scheduler: header.scheduler(),
             remedies,
             is_virtual: header.driver == Driver::Sim,
-            latency: header.link.latency,
+            link: header.link.clone(),
             handling: header.handling,
             arrived: Arrived::default(),
             handed_out: Parcels::default(),
@@ -134,7 +134,10 @@ impl RunState {
             RecordKind::SpeedSet { node, speed } => _ = self.node(*node).map(|state| state.set_speed(*speed, at)),
             RecordKind::Paused { node } => _ = self.node(*node).map(|state| state.set_paused(true, at)),
             RecordKind::Resumed { node } => _ = self.node(*node).map(|state| state.set_paused(false, at)),
-            RecordKind::LatencySet { latency } => self.latency = *latency,
+            RecordKind::LatencySet { latency } => self.link.latency = *latency,
+            RecordKind::OwnLatencySet { party, latency } => {
+                self.link.set_own(*party, OwnLink { latency: *latency, ..self.link.own(*party) });
+            }
             RecordKind::Retired { node } => {
                 if let Some(state) = self.node(*node) {
                     (state.retired, state.awaits_answer) = (true, false);
@@ -209,7 +212,26 @@ impl RunState {
 
     /// Latency of the links at present.
     pub fn latency(&self) -> Duration {
-        self.latency
+        self.link.latency
+    }
+
+    /// Returns the shortest and the longest latency of a message from a node: in a ring to its left neighbour, else to
+    /// the parent.
+    pub fn latency_range(&self) -> (Duration, Duration) {
+        let nodes = self.nodes.len() as NodeId;
+        let latency = |node: NodeId| {
+            let left = Party::Node(if node == 0 { nodes - 1 } else { node - 1 });
+            self.link.between(Party::Node(node), if self.scheduler.is_ring() { left } else { Party::Parent }).0
+        };
+        let range = (0..nodes).map(latency).fold(None, |range: Option<(Duration, Duration)>, latency| {
+            Some(range.map_or((latency, latency), |(least, most)| (least.min(latency), most.max(latency))))
+        });
+        range.unwrap_or_default()
+    }
+
+    /// Returns what a party has of its own at its end of the links.
+    pub fn own_link(&self, party: Party) -> OwnLink {
+        self.link.own(party)
     }
 
     /// Messages and pixels that the parent has received.
@@ -308,6 +330,7 @@ mod tests {
             RecordKind::Delayed { to, .. } => *to,
             RecordKind::Link { .. } | RecordKind::Lost { .. } | RecordKind::GivenUp { .. } => Party::Parent,
             RecordKind::LatencySet { .. }
+            | RecordKind::OwnLatencySet { .. }
             | RecordKind::Estimating
             | RecordKind::Estimated { .. }
             | RecordKind::Finished => Party::Parent,

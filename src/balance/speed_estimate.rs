@@ -2,8 +2,11 @@
 
 use std::time::Duration;
 
+use super::strategy::LEASE_BEATS;
 use crate::time::Time;
 
+/// A worker counts as stuck if its atom takes this many leases and this many times [`LEASE_BEATS`] usual atoms.
+const STUCK_LEASES: u32 = 16;
 /// Weight of the last atom in the moving average of the speed.
 const SPEED_WEIGHT: f64 = 0.25;
 /// Weight of the last atom in the moving average of an atom's cost.
@@ -57,6 +60,13 @@ impl SpeedEstimate {
         let (speed, cost) = self.averages()?;
         let age = now.since(self.since).as_secs_f64();
         Some(if age > 0.0 { speed.min(cost / age) } else { speed })
+    }
+
+    /// Returns whether the worker has had the atom in hand for so long that its node no longer vouches for the atoms
+    /// that it holds. The bound is high, because an atom that is merely costly should not be traced by all nodes.
+    pub fn is_stuck(&self, now: Time, lease: Duration) -> bool {
+        let usual = self.usual_time().unwrap_or_default();
+        now.since(self.since) > lease.max(usual * LEASE_BEATS) * STUCK_LEASES
     }
 
     /// Returns how long the atom in hand will still take: the rest of the usual time, or as long as its age exceeds

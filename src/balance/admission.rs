@@ -1,4 +1,4 @@
-//! Admission: a node that has started afresh asks the parent to let it into the ring.
+//! Admission: a node that has started afresh asks the parent to let it in.
 
 use std::time::Duration;
 
