@@ -72,7 +72,7 @@ fn parent_can_have_a_latency_and_a_bandwidth_of_its_own() {
 
 #[test]
 fn own_links_hold_on_threads_too() {
-    let latencies = [MS, 0 * MS, 20 * MS, 2 * MS];
+    let latencies = [MS, Duration::ZERO, 20 * MS, 2 * MS];
     let bandwidths = [1e6, 1e5, 1e7, 1e6];
     let header = header(Strategy::Ring, &latencies, &bandwidths);
     let trace = |pixels: std::ops::Range<u32>, _: &mut Scratch, out: &mut Vec<Colour>| {
