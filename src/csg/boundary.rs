@@ -10,11 +10,31 @@
 
 use glam::DVec3;
 
-use super::{Crossing, Hit, RayStart, RootId, Surface, Tree};
+use super::{Crossing, RootId, Surface, Tree};
 use crate::geometry::Ray;
 
-/// Order in which a ray crosses boundaries that lie at one place: entries before exits, entries in scene order, exits in
-/// the reverse of it.
+/// A ray's crossing of the boundary of a solid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance along the ray, at least 0.
+    pub t: f64,
+    /// The face at the crossing.
+    pub surface: Surface,
+    /// Whether the ray enters the solid (not the leaf) there; otherwise it leaves it.
+    pub enters: bool,
+}
+
+/// The surface on which a reflected, refracted or shadow ray starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayStart {
+    /// The solid that the incoming ray hit.
+    pub root: RootId,
+    /// The face that it hit.
+    pub surface: Surface,
+}
+
+/// Order in which a ray crosses boundaries that lie at one place: entries before exits, entries in scene order, exits
+/// in the reverse of it.
 ///
 /// So media that begin at one place also end there as a pair of brackets does, and a solid that is left is still there
 /// when the one that touches it is entered: no gap of air comes between them. A ray that goes back crosses the

@@ -17,7 +17,7 @@ mod torus;
 mod traverse;
 mod tree;
 
-pub use boundary::Rank;
+pub use boundary::{Hit, Rank, RayStart};
 pub use id::{LeafIndex, MaterialTag, RootId};
 pub use merge::{Crossing, Operation};
 pub use passes::{Pass, Passes};
@@ -25,5 +25,5 @@ pub use primitive::{Primitive, QuadricCoefficients};
 pub use shape::{Leaf, Surface};
 pub use solid::Solid;
 pub use span_diagram::{SolidKind, SpanDiagram};
-pub use traverse::{Hit, RayStart, Stack};
+pub use traverse::Stack;
 pub use tree::{DroppedCounts, Tree};

@@ -1,6 +1,6 @@
 //! Traversal of the compiled tree by a ray: its spans in a solid, and its crossings of the solid's boundary.
 
-use super::boundary::visit_crossings;
+use super::boundary::{Hit, RayStart, visit_crossings};
 use super::coincidence::{coincide, without_slivers};
 use super::id::NodeIndex;
 use super::merge::{Operation, merge};
@@ -8,26 +8,6 @@ use super::span::Span;
 use super::tree::{Node, NodeKind};
 use super::{Crossing, LeafIndex, RootId, Surface, Tree};
 use crate::geometry::{Ray, fast_max, fast_min};
-
-/// A ray's crossing of the boundary of a solid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Distance along the ray, at least 0.
-    pub t: f64,
-    /// The face at the crossing.
-    pub surface: Surface,
-    /// Whether the ray enters the solid (not the leaf) there; otherwise it leaves it.
-    pub enters: bool,
-}
-
-/// The surface on which a reflected, refracted or shadow ray starts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RayStart {
-    /// The solid that the incoming ray hit.
-    pub root: RootId,
-    /// The face that it hit.
-    pub surface: Surface,
-}
 
 /// Scratch memory for the crossings of one ray, two for each span.
 pub type Stack = Vec<Crossing>;

@@ -1,10 +1,10 @@
 //! The media of a solid: what light passes through, where a solid has several materials.
 //!
 //! A medium has one index of refraction. So a union of several is not one solid to light: its operands with the same
-//! index, and those that do not transmit, are solids of their own, in the order in which they come first, and where they
-//! overlap the first fills the space, as for solids that stand alone in the scene. A core that does not transmit is thus
-//! seen inside its glass. In an intersection or a difference the first operand gives the medium; the operand whose
-//! surface is hit gives the colour, Kd, Ks and Kt.
+//! index, and those that do not transmit, are solids of their own, in the order in which they come first, and where
+//! they overlap the first fills the space, as for solids that stand alone in the scene. A core that does not transmit
+//! is thus seen inside its glass. In an intersection or a difference the first operand gives the medium; the operand
+//! whose surface is hit gives the colour, Kd, Ks and Kt.
 
 use std::borrow::Cow;
 

@@ -32,8 +32,8 @@ impl Tracer {
         }
     }
 
-    /// Traces the picture, and counts its rays and those that are lost: rays whose history of boundaries does not close,
-    /// so that they are in a solid that they have not entered, or not in one that they have not left.
+    /// Traces the picture, and counts its rays and those that are lost: rays whose history of boundaries does not
+    /// close, so that they are in a solid that they have not entered, or not in one that they have not left.
     pub fn count_lost(&self) -> LostRays {
         let (mut scratch, mut count) = (Scratch::default(), LostRays::default());
         (0..self.size.pixels()).for_each(|pixel| _ = self.pixel(pixel, &mut scratch, &mut count));

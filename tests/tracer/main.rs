@@ -11,6 +11,7 @@ mod metamorphic;
 mod parts;
 mod plain;
 mod povray;
+mod povray_glass;
 mod povray_scenes;
 mod quality;
 mod scenes;

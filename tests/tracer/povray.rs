@@ -14,7 +14,8 @@ use anel::tracer::{LightTerm, RayKind, Scratch, Tracer};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::povray_scenes::{Case, Expected, cases};
+use super::povray_glass::Expected;
+use super::povray_scenes::{Case, cases};
 
 /// By scene, the largest number of its 43,200 pixels that may differ by more than 2/255 in a channel, edges included.
 /// The comments give the numbers with POV-Ray 3.7.0.10; the rest is for the rounding of other computers. `anel study

@@ -15,7 +15,8 @@ pub enum PovLimit {
     Media([usize; 2]),
     /// The eye is in several solids that transmit light, of which an inner one has no box for POV-Ray: their number.
     EyeInMedia(usize),
-    /// Coloured glass that also shows ambient or diffuse light: POV-Ray would colour that, too. The name of the material.
+    /// Coloured glass that also shows ambient or diffuse light: POV-Ray would colour that, too. The name of the
+    /// material.
     ColouredKt(String),
     /// A surface that absorbs light: POV-Ray's absorbs none under total internal reflection.
     TotalReflection {

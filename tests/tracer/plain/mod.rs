@@ -65,7 +65,7 @@ fn compare<N: Number>(text: &str) -> Comparison {
 #[test]
 fn no_pixel_differs_from_a_plain_tracer_of_twice_the_precision() {
     let long = std::env::var("ANEL_PLAIN_SCENES").ok().and_then(|number| number.parse().ok());
-    let (scenes, mut pixels, mut wrong, mut at_edges) = (long.unwrap_or(150), 0, 0, 0);
+    let (scenes, mut pixels, mut wrong, mut at_edges) = (long.unwrap_or(400), 0, 0, 0);
     let mut example = String::new();
     for seed in 0..scenes {
         let text = scenes::scene(seed);

@@ -1,5 +1,5 @@
-//! Random scenes of the kinds that go wrong: on a coarse grid, so that faces coincide and the eye lies on them; glass in
-//! glass, and the same glass twice; solids turned by right angles; lights along faces; large and small scenes.
+//! Random scenes of the kinds that go wrong: on a coarse grid, so that faces coincide and the eye lies on them; glass
+//! in glass, and the same glass twice; solids turned by right angles; lights along faces; large and small scenes.
 
 use fastrand::Rng;
 

@@ -1,6 +1,8 @@
 //! A ray tracer by the article's equation without hierarchy, bounds or pruning: where a ray is, it knows from the
 //! membership of points halfway between the places where it meets any surface.
 
+use std::cell::Cell;
+
 use anel::csg::Solid;
 use anel::scene::{Light, Material, Scene, ior, media_of};
 use glam::DVec3;
@@ -19,6 +21,9 @@ pub struct PlainTracer<'a, N> {
     scene: &'a Scene,
     solids: Vec<Part<N>>,
     max_depth: u32,
+    /// Whether a ray of the present sample has met two faces of a primitive at one place: an edge, where the normal is
+    /// anybody's guess, and where a touch may count or not.
+    met_edge: Cell<bool>,
 }
 
 /// A solid, or the part of one that is one medium.
@@ -45,8 +50,6 @@ struct Crossing<'a, N> {
     normal: Vector<N>,
     /// The leaf and its surface.
     face: (usize, usize),
-    /// Whether it lies exactly on an edge of the solid, where the normal is anybody's guess.
-    at_edge: bool,
     /// What the ray is in before the crossing.
     inside: Vec<bool>,
 }
@@ -56,7 +59,7 @@ pub struct Sample {
     pub colour: DVec3,
     /// The leaf and the surface that is seen.
     pub face: Option<(usize, usize)>,
-    /// Whether any of its rays ends exactly on an edge.
+    /// Whether any of its rays meets an edge exactly.
     pub at_edge: bool,
 }
 
@@ -66,7 +69,7 @@ impl<'a, N: Number> PlainTracer<'a, N> {
         let media: Vec<_> = scene.solids.iter().flat_map(|solid| media_of(solid, scene)).collect();
         let mut part = |solid: &Solid| Part { solid: Plain::new(solid, &mut leaves), ior: ior(solid, scene) };
         let solids = media.iter().map(|solid| part(solid)).collect();
-        Self { scene, solids, max_depth }
+        Self { scene, solids, max_depth, met_edge: Cell::new(false) }
     }
 
     /// The colour that is seen from the eye in a direction.
@@ -75,12 +78,13 @@ impl<'a, N: Number> PlainTracer<'a, N> {
         let eye = Vector::from_f64(self.scene.camera.eye);
         let inside = self.solids.iter().map(|part| is_in(&part.solid, eye, scale)).collect();
         let ray = Ray { origin: eye, direction: Vector::from_f64(direction).normalize(), scale, inside };
-        let mut sample = Sample { colour: DVec3::ZERO, face: None, at_edge: false };
-        sample.colour = self.colour(&ray, 1, &mut sample);
-        sample
+        self.met_edge.set(false);
+        let mut face = None;
+        let colour = self.colour(&ray, 1, &mut face);
+        Sample { colour, face, at_edge: self.met_edge.get() }
     }
 
-    fn colour(&self, ray: &Ray<N>, level: u32, sample: &mut Sample) -> DVec3 {
+    fn colour(&self, ray: &Ray<N>, level: u32, face: &mut Option<(usize, usize)>) -> DVec3 {
         let mut first = None;
         self.cross(ray, f64::INFINITY, |crossing| {
             let visible = self.is_visible(&crossing);
@@ -88,10 +92,7 @@ impl<'a, N: Number> PlainTracer<'a, N> {
             !visible
         });
         let Some(hit) = first else { return self.scene.background };
-        if level == 1 {
-            sample.face = Some(hit.face);
-        }
-        sample.at_edge |= hit.at_edge;
+        *face = Some(hit.face);
         let material = hit.material;
         let into = hit.normal.dot(ray.direction).to_f64() > 0.0;
         let normal = if into { hit.normal * N::from_f64(-1.0) } else { hit.normal };
@@ -133,12 +134,12 @@ impl<'a, N: Number> PlainTracer<'a, N> {
         let reflection = if refracted.is_none() { material.kt + material.ks } else { DVec3::splat(material.ks) };
         if reflection.max_element() > 0.0 {
             let reflected = on(reflect(ray.direction, normal), hit.inside.clone());
-            colour += reflection * self.colour(&reflected, level + 1, sample);
+            colour += reflection * self.colour(&reflected, level + 1, &mut None);
         }
         if let Some(direction) = refracted {
             let mut inside = hit.inside;
             inside[hit.part] = hit.enters;
-            colour += material.kt * self.colour(&on(direction, inside), level + 1, sample);
+            colour += material.kt * self.colour(&on(direction, inside), level + 1, &mut None);
         }
         colour
     }
@@ -177,8 +178,8 @@ impl<'a, N: Number> PlainTracer<'a, N> {
         (squared.to_f64() >= 0.0).then(|| direction * ratio + normal * (ratio * cosine - squared.sqrt()))
     }
 
-    /// Visits the boundaries that a ray crosses up to a distance, until `visit` returns false: those at one place in the
-    /// order of entries, then exits the last in the scene first.
+    /// Visits the boundaries that a ray crosses up to a distance, until `visit` returns false: those at one place in
+    /// the order of entries, then exits the last in the scene first.
     fn cross<'s>(&'s self, ray: &Ray<N>, distance: f64, mut visit: impl FnMut(Crossing<'s, N>) -> bool) {
         let n = N::from_f64;
         let tolerance = |t: N| n(TOLERANCE * (ray.scale + t.to_f64().abs()));
@@ -197,6 +198,7 @@ impl<'a, N: Number> PlainTracer<'a, N> {
             let end = first + meetings[first..].iter().take_while(|next| next.t <= t + tolerance(t)).count();
             let last = meetings[first..end].last().map_or(t, |last| if last.t > t { last.t } else { t });
             let next = meetings.get(end).map_or(n(2.0) * last + n(ray.scale), |next| next.t);
+            self.note_edges(&meetings[first..end], at(t));
             let after = at((last + next) * n(0.5));
             let now: Vec<bool> = self.solids.iter().map(|part| part.solid.contains(after)).collect();
             let changed = |enters: bool| {
@@ -211,12 +213,9 @@ impl<'a, N: Number> PlainTracer<'a, N> {
                 let solid = &self.solids[part].solid;
                 let leaves = solid.leaves();
                 let leaf = solid.shown(from, after).unwrap_or(leaves[0]);
-                let mut met = meetings[first..end].iter().filter(|met| met.leaf == leaf.index);
-                let surface = met.next().map_or(0, |met| met.surface);
+                let met = meetings[first..end].iter().find(|met| met.leaf == leaf.index);
+                let surface = met.map_or(0, |met| met.surface);
                 let normal = leaf.normal(surface, at(t));
-                let own = |met: &Meeting<N>| leaves.iter().find(|leaf| leaf.index == met.leaf).copied();
-                let others = meetings[first..end].iter().filter_map(|met| Some(own(met)?.normal(met.surface, at(t))));
-                let at_edge = others.into_iter().any(|other| other.dot(normal).to_f64().abs() < 1.0 - 1e-9);
                 if t.to_f64() >= distance {
                     return;
                 }
@@ -226,7 +225,6 @@ impl<'a, N: Number> PlainTracer<'a, N> {
                     enters,
                     material: &self.scene.materials[leaf.tag.index()],
                     normal,
-                    at_edge,
                     face: (leaf.index, surface),
                     inside: inside.clone(),
                 };
@@ -237,6 +235,18 @@ impl<'a, N: Number> PlainTracer<'a, N> {
             }
             let Some(meeting) = meetings.get(end) else { return };
             (first, t, before) = (end, meeting.t, Some(after));
+        }
+    }
+
+    /// Notes whether two of the meetings at a place are with faces of one primitive that are not parallel.
+    fn note_edges(&self, meetings: &[Meeting<N>], place: Vector<N>) {
+        for (index, one) in meetings.iter().enumerate() {
+            for other in meetings[..index].iter().filter(|other| other.leaf == one.leaf) {
+                let leaves = self.solids.iter().flat_map(|part| part.solid.leaves());
+                let Some(leaf) = leaves.into_iter().find(|leaf| leaf.index == one.leaf) else { continue };
+                let [a, b] = [one, other].map(|met| leaf.normal(met.surface, place));
+                self.met_edge.set(self.met_edge.get() || a.dot(b).to_f64().abs() < 1.0 - 1e-9);
+            }
         }
     }
 }

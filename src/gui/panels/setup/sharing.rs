@@ -108,7 +108,7 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
                 esperam suas respostas"
             ));
         });
-        labelled_row(ui, word!(language, "A link carries", "Um enlace leva"), look, |ui| {
+        labelled_row(ui, word!(language, "A link", "Um enlace"), look, |ui| {
             let no_limit = word!(language, ": no limit", ": sem limite");
             let (max, suffix) = (Settings::MAX_BANDWIDTH_KB_S, if draft.bandwidth == 0 { no_limit } else { " kB/s" });
             let name = word!(language, "Kilobytes a second", "Quilobytes por segundo");
