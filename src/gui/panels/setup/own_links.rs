@@ -77,7 +77,7 @@ fn row(ui: &mut Ui, draft: &mut Settings, party: Party, look: Look, language: La
     let name = say!(language, "Latency of {whose} in milliseconds", "Latência {whose} em milissegundos");
     number_field(ui, &mut latency, 0.0..=Settings::MAX_LATENCY_MS, " ms", VALUE_WIDTH_PT, (&name, language));
     let mut bandwidth = own.bandwidth.unwrap_or(usual_bandwidth);
-    let suffix = if bandwidth == 0 { word!(language, ": no limit", ": sem limite") } else { " kB/s" };
+    let suffix = if bandwidth == 0 { word!(language, ": no limit", ": livre") } else { " kB/s" };
     // 0 means no limit, which none can have of its own where all others have one.
     let least = usual_bandwidth.min(1);
     let name = say!(language, "Kilobytes a second of {whose}", "Quilobytes por segundo {whose}");

@@ -108,8 +108,8 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
                 esperam suas respostas"
             ));
         });
-        labelled_row(ui, word!(language, "A link", "Um enlace"), look, |ui| {
-            let no_limit = word!(language, ": no limit", ": sem limite");
+        labelled_row(ui, word!(language, "A link", "Enlace"), look, |ui| {
+            let no_limit = word!(language, ": no limit", ": livre");
             let (max, suffix) = (Settings::MAX_BANDWIDTH_KB_S, if draft.bandwidth == 0 { no_limit } else { " kB/s" });
             let name = word!(language, "Kilobytes a second", "Quilobytes por segundo");
             number_field(ui, &mut draft.bandwidth, 0..=max, suffix, VALUE_WIDTH_PT, (name, language)).on_hover_text(
