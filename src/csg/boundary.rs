@@ -49,10 +49,32 @@ impl Rank {
     }
 }
 
+/// Does the same as [`visit_crossings`] for a line with one span in the solid, as most have.
+#[inline(always)]
+pub(super) fn visit_span(
+    [enter, leave]: [Crossing; 2],
+    ray: &Ray,
+    start: Option<Surface>,
+    t_max: f64,
+    is_inside: impl FnOnce() -> bool,
+    mut visit: impl FnMut(Hit) -> bool,
+) {
+    let slack = ray.tolerance(0.0);
+    if enter.t >= t_max || leave.t <= -slack {
+        return;
+    }
+    if enter.t <= slack {
+        return visit_crossings([enter, leave].into_iter(), ray, start, t_max, is_inside, visit);
+    }
+    let hit = |Crossing { t, surface }: Crossing, enters: bool| Hit { t, surface, enters };
+    if (is_inside() || visit(hit(enter, true))) && leave.t < t_max {
+        visit(hit(leave, false));
+    }
+}
+
 /// Visits those of a line's `crossings` of a solid that a ray makes between its start and `t_max`, in order, until
 /// `visit` returns false. `start` is the face of this solid that the ray starts on, if any; `is_inside` returns whether
 /// the ray is in the solid at first.
-#[inline(always)]
 pub(super) fn visit_crossings(
     mut crossings: impl Iterator<Item = Crossing>,
     ray: &Ray,

@@ -1,6 +1,6 @@
 //! Traversal of the compiled tree by a ray: its spans in a solid, and its crossings of the solid's boundary.
 
-use super::boundary::{Hit, RayStart, visit_crossings};
+use super::boundary::{Hit, RayStart, visit_crossings, visit_span};
 use super::coincidence::{coincide, without_slivers};
 use super::id::NodeIndex;
 use super::merge::{Operation, merge};
@@ -52,13 +52,19 @@ impl Tree {
         let is_sliver =
             |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
         match &self.nodes[root.node().index()].kind {
-            NodeKind::Leaf(leaf) => {
-                let spans = self.leaf_spans(*leaf, ray, start);
-                visit_crossings(spans.into_iter().flatten().flatten(), ray, start, t_max, is_inside, visit);
-            }
+            NodeKind::Leaf(leaf) => match self.leaf_spans(*leaf, ray, start) {
+                [None, None] => {}
+                [Some(span), None] | [None, Some(span)] => visit_span(span, ray, start, t_max, is_inside, visit),
+                [Some(first), Some(second)] => {
+                    let crossings = [first, second].into_iter().flatten();
+                    visit_crossings(crossings, ray, start, t_max, is_inside, visit);
+                }
+            },
             NodeKind::Convex(leaves) => {
                 let span = self.convex_span(leaves, ray, start).filter(|[enter, leave]| !is_sliver(*enter, *leave));
-                visit_crossings(span.into_iter().flatten(), ray, start, t_max, is_inside, visit);
+                if let Some(span) = span {
+                    visit_span(span, ray, start, t_max, is_inside, visit);
+                }
             }
             NodeKind::Composition { operation, children } => {
                 stack.clear();
