@@ -1,10 +1,10 @@
 //! Which boundaries a ray crosses, and in which order where several lie at one place.
 //!
-//! *In* a solid is a point that lies inside by more than the tolerance; a point on the boundary, at an edge or in faces
-//! that coincide is not in it (it is, where the faces are those of two operands of one union that fill both sides). A
-//! ray is in a solid or not in it, and a crossing of the solid's boundary counts if it changes that. So for a ray that
-//! starts on a boundary, on whichever side of it rounding has put the origin, it is certain which of the crossings at
-//! its start are still to come: those that change what it is in.
+//! A point is *in* a solid if it lies inside by more than the tolerance. A point on the solid's boundary is not in it,
+//! also at an edge or a corner. (Faces of two operands of one union that fill both sides are no boundary.) A ray is in a
+//! solid or not, and a crossing of the solid's boundary counts if it changes that. So a ray that starts on a boundary
+//! has to cross those of the boundaries at its start that change what it is in, and no others. It does not matter on
+//! which side of them rounding has put its origin.
 //!
 //! Boundaries of several solids at one place are crossed in the order of their [`Rank`].
 
@@ -43,7 +43,7 @@ pub struct RayStart {
 pub struct Rank(bool, u32);
 
 impl Rank {
-    /// The rank of a ray's crossing of the boundary of `root`.
+    /// Creates the rank of a ray's crossing of the boundary of `root`.
     pub fn new(root: RootId, enters: bool) -> Self {
         Self(!enters, if enters { root.0 } else { !root.0 })
     }

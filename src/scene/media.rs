@@ -1,17 +1,17 @@
 //! The media of a solid: what light passes through, where a solid has several materials.
 //!
-//! A medium has one index of refraction. So a union of several is not one solid to light: its operands with the same
-//! index, and those that do not transmit, are solids of their own, in the order in which they come first, and where
-//! they overlap the first fills the space, as for solids that stand alone in the scene. A core that does not transmit
-//! is thus seen inside its glass. In an intersection or a difference the first operand gives the medium; the operand
-//! whose surface is hit gives the colour, Kd, Ks and Kt.
+//! A medium has one index of refraction. So a union with several indices is several solids: one for the operands of
+//! each index, and one for those that do not transmit, in the order in which they come first. Where they overlap, the
+//! first fills the space, as for any solids of a scene. A core that does not transmit is thus seen inside its glass. In
+//! an intersection or a difference the first operand gives the medium; the operand whose surface is hit gives the
+//! colour, Kd, Ks and Kt.
 
 use std::borrow::Cow;
 
 use super::Scene;
 use crate::csg::Solid;
 
-/// The index of refraction of a solid: that of its first primitive that transmits; none if none does.
+/// Returns the index of refraction of a solid: that of its first primitive that transmits; none if none does.
 pub fn ior(solid: &Solid, scene: &Scene) -> Option<f64> {
     match solid {
         Solid::Placed { tag, .. } => {

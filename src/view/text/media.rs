@@ -14,9 +14,9 @@ pub fn note_on_media(scene: &Scene, language: Language) -> Option<String> {
     };
     Some(say!(
         language,
-        "Object {first}{others} joins materials of several indices of refraction. Its parts count as solids of their \
+        "Object {first}{others} joins materials that refract light differently or stop it. They count as solids of their \
          own; where they overlap, the first one fills the space",
-        "O objeto {first}{others} une materiais de vários índices de refração. Suas partes contam como sólidos \
+        "O objeto {first}{others} une materiais que refratam a luz de modo diferente ou a barram. Contam como sólidos \
          próprios; onde se sobrepõem, a primeira preenche o espaço"
     ))
 }
