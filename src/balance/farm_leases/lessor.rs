@@ -68,12 +68,7 @@ impl Lessor {
 
     /// Answers the request of a node that has no atoms.
     pub fn request(&mut self, now: Time, node: NodeId, placed: &[bool], actions: &mut Vec<Action>) {
-        self.note_idle(node);
-        let part = self.take_fresh(now, node);
-        if !part.is_empty() {
-            return send(node, Message::Part(part), actions);
-        }
-        self.give_lost(now, placed, actions);
+        self.give(now, node, placed, actions);
         if self.nodes[usize::from(node)].waits {
             send(node, Message::Part(0..0), actions);
         }
@@ -103,13 +98,7 @@ impl Lessor {
             let lessee = &mut self.nodes[usize::from(node)];
             (lessee.waits, lessee.given) = (false, None);
         } else if !self.may_be_on_the_way(now, node) {
-            self.note_idle(node);
-            let part = self.take_fresh(now, node);
-            if part.is_empty() {
-                self.give_lost(now, placed, actions);
-            } else {
-                send(node, Message::Part(part), actions);
-            }
+            self.give(now, node, placed, actions);
         }
     }
 
@@ -132,9 +121,16 @@ impl Lessor {
         self.give_lost(now, placed, actions);
     }
 
-    fn note_idle(&mut self, node: NodeId) {
+    /// Gives a node without atoms the next fresh part, or lost atoms. If there are none, the node waits.
+    fn give(&mut self, now: Time, node: NodeId, placed: &[bool], actions: &mut Vec<Action>) {
         let lessee = &mut self.nodes[usize::from(node)];
         (lessee.waits, lessee.given) = (true, None);
+        let part = self.take_fresh(now, node);
+        if part.is_empty() {
+            self.give_lost(now, placed, actions);
+        } else {
+            send(node, Message::Part(part), actions);
+        }
     }
 
     fn note_given(&mut self, now: Time, node: NodeId) {
