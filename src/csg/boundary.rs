@@ -1,8 +1,8 @@
 //! Which boundaries a ray crosses, and in which order where several lie at one place.
 //!
 //! A point is *in* a solid if it lies inside by more than the tolerance. A point on the solid's boundary is not in it,
-//! also at an edge or a corner. (Faces of two operands of one union that fill both sides are no boundary.) A ray is in a
-//! solid or not, and a crossing of the solid's boundary counts if it changes that. So a ray that starts on a boundary
+//! also at an edge or a corner. (Faces of two operands of one union that fill both sides are no boundary.) A ray is in
+//! a solid or not, and a crossing of the solid's boundary counts if it changes that. So a ray that starts on a boundary
 //! has to cross those of the boundaries at its start that change what it is in, and no others. It does not matter on
 //! which side of them rounding has put its origin.
 //!
