@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::{Align2, Color32, ColorImage, Label, Rect, RichText, ScrollArea, Sense, StrokeKind};
 use egui::{TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2};
 
+use crate::cancel::CancelOnDrop;
 use crate::gui::session::Thumbnail;
 use crate::gui::session::{Purpose, Session};
 use crate::gui::widgets::icons::Icon;
@@ -22,6 +23,8 @@ pub struct Gallery {
     path: TypedPath,
     trouble: Option<String>,
     tiles: Vec<Tile>,
+    /// Dropping it ends the tracing of thumbnails, which would take a core from the run.
+    tracing: Option<CancelOnDrop>,
 }
 
 /// A scene of the page.
@@ -45,11 +48,11 @@ impl Gallery {
     /// Opens the page and starts the missing thumbnails, or closes it.
     pub fn toggle(&mut self, session: &Session) {
         let language = session.language();
-        self.open = !self.open;
-        (self.wants_focus, self.trouble) = (self.open, None);
-        if !self.open {
-            return;
+        (self.wants_focus, self.trouble) = (!self.open, None);
+        if self.open {
+            return self.close();
         }
+        self.open = true;
         let built_in = BUILT_IN.iter().map(|(name, _)| PathBuf::from(name));
         let recent = session.recent().iter().filter(|path| has_ending(path, "ron")).cloned();
         let mut scenes: Vec<_> = built_in.chain(recent).collect();
@@ -63,7 +66,7 @@ impl Gallery {
         }
         self.tiles.extend(scenes.iter().map(|scene| Tile { scene: scene.clone(), thumbnail: TileThumbnail::Pending }));
         if !scenes.is_empty() {
-            session.jobs().thumbnails(scenes, language);
+            self.tracing = Some(session.jobs().thumbnails(scenes, language));
         }
     }
 
@@ -75,6 +78,7 @@ impl Gallery {
     /// Closes the page.
     pub fn close(&mut self) {
         self.open = false;
+        self.tracing = None;
     }
 
     /// Takes the thumbnail of a scene.
@@ -95,7 +99,7 @@ impl Gallery {
         let language = session.language();
         match chosen {
             Some(path) => {
-                self.open = false;
+                self.close();
                 session.open(path);
             }
             None => self.trouble = Some(no_file_chosen(language).into()),
@@ -135,7 +139,7 @@ impl Gallery {
             if button(ui, None, word!(language, "Open", "Abrir"), true, Emphasis::Primary).clicked() || field.entered {
                 match self.path.resolve(std::env::home_dir(), language) {
                     Ok(path) => {
-                        self.open = false;
+                        self.close();
                         session.open(path);
                     }
                     Err(why) => self.trouble = Some(why),
@@ -148,7 +152,7 @@ impl Gallery {
             if button(ui, Some(Icon::Close), word!(language, "Close scenes", "Fechar cenas"), false, Emphasis::Quiet)
                 .clicked()
             {
-                self.open = false;
+                self.close();
             }
         });
         ui.horizontal(|ui| {
@@ -163,7 +167,7 @@ impl Gallery {
             if let Some(last) = last
                 && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(last.to_string_lossy()).clicked()
             {
-                self.open = false;
+                self.close();
                 session.open(last);
             }
         });
@@ -225,7 +229,7 @@ impl Gallery {
             }
         }
         if let Some(scene) = opened {
-            self.open = false;
+            self.close();
             session.open(scene);
         }
     }

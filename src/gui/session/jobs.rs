@@ -91,15 +91,23 @@ impl Jobs {
         });
     }
 
-    /// Traces thumbnails of these scenes, one after the other.
-    pub fn thumbnails(&self, scenes: Vec<PathBuf>, language: Language) {
+    /// Traces thumbnails of these scenes, one after the other, until the result is dropped.
+    pub fn thumbnails(&self, scenes: Vec<PathBuf>, language: Language) -> CancelOnDrop {
+        let owner = CancelOnDrop::default();
+        let cancel = owner.token();
         self.start_many(language, "thumbnails", JobResult::Failed, move |send| {
             for scene in scenes {
-                let picture =
-                    Opened::new(&scene).map(|opened| thumbnail(&opened.scene)).map_err(|error| error.to_string());
+                let picture = match Opened::new(&scene) {
+                    Ok(opened) => match thumbnail(&opened.scene, &cancel) {
+                        Some(picture) => Ok(picture),
+                        None => return,
+                    },
+                    Err(error) => Err(error.to_string()),
+                };
                 send(JobResult::Thumbnail(scene, picture));
             }
         });
+        owner
     }
 
     /// Traces a pixel for the inspector.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::job_result::Thumbnail;
+use crate::cancel::CancelToken;
 use crate::palette::Rgb;
 use crate::picture::{Frame, Quality, Size, srgb8};
 use crate::scene::Scene;
@@ -38,12 +39,17 @@ pub(super) fn preview_pixels(tracer: &Tracer) -> Arc<[Rgb]> {
     pixels.map(|(x, y)| srgb8(preview.interpolate(x, y))).collect()
 }
 
-/// Traces the thumbnail of a scene for the Scenes page.
-pub(super) fn thumbnail(scene: &Scene) -> Thumbnail {
+/// Traces the thumbnail of a scene for the Scenes page; `None` if it is cancelled.
+pub(super) fn thumbnail(scene: &Scene, cancel: &CancelToken) -> Option<Thumbnail> {
     // Size::new fails only for an empty or a huge picture.
     let size = Size::new(400, 300).expect("a possible size");
     let tracer = Tracer::new(scene, size, Quality { samples: 2, ..Quality::default() });
-    let mut pixels = Vec::new();
-    tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
-    Thumbnail { size, rgb: Frame::of(size, &pixels).to_srgb8() }
+    let (mut pixels, mut scratch) = (Vec::new(), Scratch::default());
+    for row in 0..size.height() {
+        if cancel.is_cancelled() {
+            return None;
+        }
+        tracer.trace(row * size.width()..(row + 1) * size.width(), &mut scratch, &mut pixels);
+    }
+    Some(Thumbnail { size, rgb: Frame::of(size, &pixels).to_srgb8() })
 }
