@@ -28,6 +28,7 @@ mod node_thread;
 mod pace;
 mod pair_threads;
 mod panic_guard;
+mod parallel;
 mod parent_thread;
 mod probe;
 mod render_all;
@@ -46,6 +47,7 @@ mod worker;
 
 pub use error::{RunError, ThreadError, UntraceableAtom};
 pub use pace::{auto_pace, cores};
+pub use parallel::map_on_all_cores;
 pub use probe::{Probe, probe};
 pub use render_all::{PartialPicture, RAY_COST, TracedPicture};
 pub use render_tiled::trace_strips;

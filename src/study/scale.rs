@@ -9,6 +9,7 @@ use super::StudyError;
 use super::fixture::{AtomCosts, Fixture, STRATEGIES, simulate};
 use super::progress::{Progress, ProgressSink};
 use crate::balance::Rules;
+use crate::driver::map_on_all_cores;
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, LinkSettings};
 use crate::scene::Opened;
@@ -72,13 +73,13 @@ pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<Scal
             let kind = if weak { "the picture grown with them" } else { "the same picture" };
             progress.next(&format!("{nodes} machines, {kind}"));
             let (costs, size) = if weak { resample(&strong, nodes)? } else { (strong.clone(), size) };
-            for network in NETWORKS_MS {
-                for strategy in STRATEGIES {
-                    let plain = fixture.header(ATOM_PX, strategy, vec![1.0; nodes]);
-                    let plain = Header { size, division: Division::new(size.pixels(), ATOM_PX), ..plain };
-                    rows.push(row(plain, network, weak, &costs));
-                }
-            }
+            let runs: Vec<_> =
+                NETWORKS_MS.into_iter().flat_map(|network| STRATEGIES.map(|strategy| (network, strategy))).collect();
+            rows.extend(map_on_all_cores(&runs, |(network, strategy)| {
+                let plain = fixture.header(ATOM_PX, strategy.clone(), vec![1.0; nodes]);
+                let plain = Header { size, division: Division::new(size.pixels(), ATOM_PX), ..plain };
+                row(plain, *network, weak, &costs)
+            }));
         }
     }
     Ok(rows)
