@@ -56,12 +56,12 @@ pub fn launch_with(size: [f32; 2], storage: &Storage, launch: Launch) -> Window 
 /// # Panics
 /// If that takes longer than two minutes.
 pub fn until(window: &mut Window, what: &str, condition: impl Fn(&Window) -> bool) {
-    for _ in 0..12_000 {
+    for _ in 0..6_000 {
         window.step();
         if condition(window) {
             return;
         }
-        std::thread::sleep(Duration::from_millis(10));
+        std::thread::sleep(Duration::from_millis(20));
     }
     panic!(
         "timeout after two minutes: {what}; the notice is {:?}, the settings are {:?}",
