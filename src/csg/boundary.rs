@@ -49,64 +49,39 @@ impl Rank {
     }
 }
 
-/// Does the same as [`visit_crossings`] for a line with one span in the solid, as most have.
-#[inline(always)]
-pub(super) fn visit_span(
-    [enter, leave]: [Crossing; 2],
-    ray: &Ray,
-    start: Option<Surface>,
-    t_max: f64,
-    is_inside: impl FnOnce() -> bool,
-    mut visit: impl FnMut(Hit) -> bool,
-) {
-    let slack = ray.tolerance(0.0);
-    if enter.t >= t_max || leave.t <= -slack {
-        return;
-    }
-    if enter.t <= slack {
-        return visit_crossings([enter, leave].into_iter(), ray, start, t_max, is_inside, visit);
-    }
-    let hit = |Crossing { t, surface }: Crossing, enters: bool| Hit { t, surface, enters };
-    if (is_inside() || visit(hit(enter, true))) && leave.t < t_max {
-        visit(hit(leave, false));
-    }
-}
-
 /// Visits those of a line's `crossings` of a solid that a ray makes between its start and `t_max`, in order, until
-/// `visit` returns false. `start` is the face of this solid that the ray starts on, if any; `is_inside` returns whether
+/// `visit` returns false. `start` is the face of this solid that the ray starts on, if any; `is_inside` tells whether
 /// the ray is in the solid at first.
 pub(super) fn visit_crossings(
-    mut crossings: impl Iterator<Item = Crossing>,
+    crossings: &[Crossing],
     ray: &Ray,
     start: Option<Surface>,
     t_max: f64,
-    is_inside: impl FnOnce() -> bool,
+    is_inside: bool,
     mut visit: impl FnMut(Hit) -> bool,
 ) {
     let slack = ray.tolerance(0.0);
     // The crossings behind the start and at it. The last one decides on which side of the boundary the ray begins.
-    let mut last: Option<Crossing> = None;
-    let mut lies_inside = false;
-    let mut next = crossings.next();
-    while let Some(crossing) = next.filter(|crossing| crossing.t <= slack) {
-        last = Some(crossing);
-        lies_inside = !lies_inside;
-        next = crossings.next();
-    }
+    let ahead = crossings.iter().position(|crossing| crossing.t > slack).unwrap_or(crossings.len());
+    let (behind, ahead) = crossings.split_at(ahead);
+    let lies_inside = behind.len() % 2 == 1;
     // The face that it starts on is behind it, although it lies at 0.
-    let at_start = last.filter(|last| last.t > -slack && !(last.t == 0.0 && start == Some(last.surface)));
-    if at_start.is_none() && next.is_none_or(|next| next.t >= t_max) {
+    let at_start = behind.last().filter(|last| last.t > -slack && !(last.t == 0.0 && start == Some(last.surface)));
+    if at_start.is_none() && ahead.first().is_none_or(|next| next.t >= t_max) {
         return;
     }
-    let mut inside = is_inside();
-    if let Some(Crossing { surface, .. }) = at_start.filter(|_| lies_inside != inside && t_max > 0.0) {
+    let mut inside = is_inside;
+    if let Some(&Crossing { surface, .. }) = at_start.filter(|_| lies_inside != inside && t_max > 0.0) {
         if !visit(Hit { t: 0.0, surface, enters: lies_inside }) {
             return;
         }
         inside = lies_inside;
     }
     let mut enters = !lies_inside;
-    while let Some(Crossing { t, surface }) = next.filter(|next| next.t < t_max) {
+    for &Crossing { t, surface } in ahead {
+        if t >= t_max {
+            return;
+        }
         if enters != inside {
             if !visit(Hit { t, surface, enters }) {
                 return;
@@ -114,7 +89,20 @@ pub(super) fn visit_crossings(
             inside = enters;
         }
         enters = !enters;
-        next = crossings.next();
+    }
+}
+
+/// Does the same for a line with one span in the solid, which lies ahead of the ray's start.
+#[inline(always)]
+pub(super) fn visit_span(
+    [enter, leave]: [Crossing; 2],
+    t_max: f64,
+    is_inside: bool,
+    mut visit: impl FnMut(Hit) -> bool,
+) {
+    let hit = |Crossing { t, surface }: Crossing, enters: bool| Hit { t, surface, enters };
+    if enter.t < t_max && (is_inside || visit(hit(enter, true))) && leave.t < t_max {
+        visit(hit(leave, false));
     }
 }
 

@@ -15,24 +15,20 @@ const MAX_TOLERANCES: f64 = 1e6;
 /// to; with a margin.
 const RELATIVE_ROUNDING: f64 = 4e-15;
 
-/// The crossings of a composition without the pairs that bound a sliver, be it inside or outside the solid.
+/// Removes the pairs of a composition's crossings that bound a sliver, be it inside or outside the solid.
 #[inline(always)]
-pub(super) fn without_slivers(
-    mut crossings: &[Crossing],
-    is_sliver: impl Fn(Crossing, Crossing) -> bool,
-) -> impl Iterator<Item = Crossing> {
-    std::iter::from_fn(move || {
-        loop {
-            match crossings {
-                [earlier, later, rest @ ..] if is_sliver(*earlier, *later) => crossings = rest,
-                [crossing, rest @ ..] => {
-                    crossings = rest;
-                    return Some(*crossing);
-                }
-                [] => return None,
+pub(super) fn drop_slivers(crossings: &mut Vec<Crossing>, is_sliver: impl Fn(Crossing, Crossing) -> bool) {
+    let (mut kept, mut at) = (0, 0);
+    while let Some(&crossing) = crossings.get(at) {
+        match crossings.get(at + 1) {
+            Some(&next) if is_sliver(crossing, next) => at += 2,
+            _ => {
+                crossings[kept] = crossing;
+                (kept, at) = (kept + 1, at + 1);
             }
         }
-    })
+    }
+    crossings.truncate(kept);
 }
 
 /// Whether `later` is one point with `earlier`: at most the tolerance after it, or at most what rounding explains.

@@ -1,6 +1,6 @@
 //! A ray's spans in a solid and in all its operands (the article's Figure 2).
 
-use super::coincidence::{coincide, without_slivers};
+use super::coincidence::{coincide, drop_slivers};
 use super::id::NodeIndex;
 use super::tree::NodeKind;
 use super::{Crossing, LeafIndex, MaterialTag, Operation, RayStart, RootId, Surface, Tree};
@@ -40,8 +40,7 @@ impl Tree {
         // Slivers are dropped, as for a ray.
         let is_leaf = matches!(self.nodes[root.node().index()].kind, NodeKind::Leaf(_));
         if start.is_none() && !is_leaf {
-            let is_sliver = |earlier, later| coincide(&self.leaves, earlier, later, ray);
-            crossings = without_slivers(&crossings, is_sliver).collect();
+            drop_slivers(&mut crossings, |earlier, later| coincide(&self.leaves, earlier, later, ray));
         }
         self.node_diagram(root.node(), &crossings, ray, start)
     }

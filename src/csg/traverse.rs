@@ -1,10 +1,10 @@
 //! Traversal of the compiled tree by a ray: its spans in a solid, and its crossings of the solid's boundary.
 
 use super::boundary::{Hit, RayStart, visit_crossings, visit_span};
-use super::coincidence::{coincide, without_slivers};
+use super::coincidence::{coincide, drop_slivers};
 use super::id::NodeIndex;
 use super::merge::{Operation, merge};
-use super::span::Span;
+use super::span::{Span, Spans};
 use super::tree::{Node, NodeKind};
 use super::{Crossing, LeafIndex, RootId, Surface, Tree};
 use crate::geometry::{Ray, fast_max, fast_min};
@@ -14,14 +14,14 @@ pub type Stack = Vec<Crossing>;
 
 impl Tree {
     /// Finds the first crossing of the boundary of the solid `root` before `t_max`; see [`Tree::crossings`].
-    #[inline]
+    #[inline(always)]
     pub fn nearest(
         &self,
         root: RootId,
         ray: &Ray,
         start: Option<RayStart>,
         t_max: f64,
-        is_inside: impl FnOnce() -> bool,
+        is_inside: bool,
         stack: &mut Stack,
     ) -> Option<Hit> {
         let mut found = None;
@@ -33,16 +33,16 @@ impl Tree {
     }
 
     /// Visits the crossings of the boundary of the solid `root` between the ray's start and `t_max`, in order, until
-    /// `visit` returns false. `is_inside` returns whether the ray is in the solid at first.
+    /// `visit` returns false. `is_inside` tells whether the ray is in the solid at first.
     #[expect(clippy::too_many_arguments, reason = "the ray, its range and its state, and scratch memory")]
-    #[inline]
+    #[inline(always)]
     pub fn crossings(
         &self,
         root: RootId,
         ray: &Ray,
         start: Option<RayStart>,
         t_max: f64,
-        is_inside: impl FnOnce() -> bool,
+        is_inside: bool,
         stack: &mut Stack,
         visit: impl FnMut(Hit) -> bool,
     ) {
@@ -51,28 +51,36 @@ impl Tree {
         // A ray that starts on this solid starts exactly on the face, and may be inside for any short distance.
         let is_sliver =
             |earlier: Crossing, later: Crossing| start.is_none() && coincide(&self.leaves, earlier, later, ray);
-        match &self.nodes[root.node().index()].kind {
+        let slack = ray.tolerance(0.0);
+        stack.clear();
+        let span = match &self.nodes[root.node().index()].kind {
             NodeKind::Leaf(leaf) => match self.leaf_spans(*leaf, ray, start) {
-                [None, None] => {}
-                [Some(span), None] | [None, Some(span)] => visit_span(span, ray, start, t_max, is_inside, visit),
-                [Some(first), Some(second)] => {
-                    let crossings = [first, second].into_iter().flatten();
-                    visit_crossings(crossings, ray, start, t_max, is_inside, visit);
+                Spans { first: None, second: None } => return,
+                Spans { first: Some(span), second: None } | Spans { first: None, second: Some(span) } => {
+                    Some(span_crossings(*leaf, span))
+                }
+                Spans { first: Some(first), second: Some(second) } => {
+                    stack.extend([first, second].into_iter().flat_map(|span| span_crossings(*leaf, span)));
+                    None
                 }
             },
-            NodeKind::Convex(leaves) => {
-                let span = self.convex_span(leaves, ray, start).filter(|[enter, leave]| !is_sliver(*enter, *leave));
-                if let Some(span) = span {
-                    visit_span(span, ray, start, t_max, is_inside, visit);
-                }
-            }
+            NodeKind::Convex(leaves) => match self.convex_span(leaves, ray, start) {
+                Some([enter, leave]) if !is_sliver(enter, leave) => Some([enter, leave]),
+                _ => return,
+            },
             NodeKind::Composition { operation, children } => {
-                stack.clear();
-                let window = [-2.0 * ray.tolerance(0.0), t_max + ray.tolerance(t_max)];
+                let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
                 // The caller has tested the bounds.
                 self.push_composition_crossings(*operation, children, ray, start, window, stack);
-                visit_crossings(without_slivers(stack, is_sliver), ray, start, t_max, is_inside, visit);
+                drop_slivers(stack, is_sliver);
+                None
             }
+        };
+        match span {
+            Some([enter, leave]) if enter.t > slack => visit_span([enter, leave], t_max, is_inside, visit),
+            Some([_, leave]) if leave.t <= -slack => {}
+            Some(span) => visit_crossings(&span, ray, start, t_max, is_inside, visit),
+            None => visit_crossings(stack, ray, start, t_max, is_inside, visit),
         }
     }
 
@@ -109,12 +117,12 @@ impl Tree {
         };
         match kind {
             NodeKind::Leaf(leaf) => {
-                let [first, second] = self.leaf_spans(*leaf, ray, start);
+                let Spans { first, second } = self.leaf_spans(*leaf, ray, start);
                 if let Some(span) = first {
-                    push(span);
+                    push(span_crossings(*leaf, span));
                 }
                 if let Some(span) = second {
-                    push(span);
+                    push(span_crossings(*leaf, span));
                 }
             }
             NodeKind::Convex(leaves) => {
@@ -164,34 +172,36 @@ impl Tree {
 
     /// The crossings of a leaf over the whole line.
     pub(super) fn leaf_crossings(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
-        self.leaf_spans(leaf, ray, start).into_iter().flatten().flatten().collect()
+        let Spans { first, second } = self.leaf_spans(leaf, ray, start);
+        [first, second].into_iter().flatten().flat_map(|span| span_crossings(leaf, span)).collect()
     }
 
     #[inline(always)]
-    fn leaf_spans(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> [Option<[Crossing; 2]>; 2] {
-        let spans = self.leaves[leaf.index()].spans(ray, start_face(start, leaf));
-        [spans.first, spans.second].map(|span| span.map(|span| span_crossings(leaf, span)))
+    fn leaf_spans(&self, leaf: LeafIndex, ray: &Ray, start: Option<Surface>) -> Spans {
+        self.leaves[leaf.index()].spans(ray, start_face(start, leaf))
     }
 
     /// Finds the one span of a ray in the intersection of convex leaves. As in [`merge`], of coincident faces the first
     /// leaf's is seen, and a span shorter than the tolerance is dropped.
     fn convex_span(&self, leaves: &[LeafIndex], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
-        let mut overlap: Option<[Crossing; 2]> = None;
-        for &leaf in leaves {
-            let span = self.leaves[leaf.index()].spans(ray, start_face(start, leaf)).first?;
-            let [enter, leave] = span_crossings(leaf, span);
-            let [first, last] = overlap.get_or_insert([enter, leave]);
-            if enter.t > first.t + ray.tolerance(enter.t) || first.t == f64::NEG_INFINITY {
-                *first = enter;
+        let (&first, others) = leaves.split_first()?;
+        let [mut enter, mut leave] = span_crossings(first, self.leaf_spans(first, ray, start).first?);
+        if leave.t <= enter.t + ray.tolerance(enter.t) {
+            return None;
+        }
+        for &leaf in others {
+            let [from, to] = span_crossings(leaf, self.leaf_spans(leaf, ray, start).first?);
+            if from.t > enter.t + ray.tolerance(from.t) || enter.t == f64::NEG_INFINITY {
+                enter = from;
             }
-            if leave.t < last.t - ray.tolerance(leave.t) || last.t == f64::INFINITY {
-                *last = leave;
+            if to.t < leave.t - ray.tolerance(to.t) || leave.t == f64::INFINITY {
+                leave = to;
             }
-            if last.t <= first.t + ray.tolerance(first.t) {
+            if leave.t <= enter.t + ray.tolerance(enter.t) {
                 return None;
             }
         }
-        overlap
+        Some([enter, leave])
     }
 }
 

@@ -1,4 +1,4 @@
-//! A bounding volume hierarchy over solids.
+//! A bounding volume hierarchy over solids, beside those without bounds.
 
 use crate::csg::RootId;
 use crate::geometry::{Aabb, MAX_SAH_DEPTH, Ray, fast_max, fast_min, split};
@@ -8,7 +8,9 @@ use crate::geometry::{Aabb, MAX_SAH_DEPTH, Ray, fast_max, fast_min, split};
 pub(super) struct Bvh {
     top: Option<(Aabb, Child)>,
     nodes: Vec<Node>,
+    /// The roots without bounds, then those of the leaves.
     roots: Vec<RootId>,
+    unbounded: u32,
 }
 
 /// The boxes of two children, by axis and then by child.
@@ -40,79 +42,55 @@ impl Default for Pending {
 }
 
 impl Bvh {
-    pub fn new(mut solids: Vec<(RootId, Aabb)>) -> Self {
-        let mut bvh = Self::default();
-        if !solids.is_empty() {
-            bvh.top = Some(bvh.build(&mut solids, 0));
+    /// Puts the bounded solids into a hierarchy.
+    pub fn new(unbounded: Vec<RootId>, mut bounded: Vec<(RootId, Aabb)>) -> Self {
+        let mut bvh = Self::without_bounds(unbounded);
+        if !bounded.is_empty() {
+            bvh.top = Some(bvh.build(&mut bounded, 0));
         }
         bvh
     }
 
-    /// All solids in one box, without a hierarchy.
-    pub fn flat(solids: Vec<(RootId, Aabb)>) -> Self {
-        let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
-        let roots: Vec<_> = solids.iter().map(|(root, _)| *root).collect();
-        let top = (!roots.is_empty()).then_some((bounds, Child { to: 0, count: roots.len() as u32 }));
-        Self { top, nodes: Vec::new(), roots }
-    }
-
-    pub fn roots(&self) -> impl Iterator<Item = RootId> {
-        self.roots.iter().copied()
-    }
-
-    /// Visits the solids whose boxes `ray` meets before `t_max`, nearer boxes first. `visit` returns the new `t_max`; a
-    /// negative one ends the search.
-    #[inline(always)]
-    pub fn visit(
-        &self,
-        ray: &Ray,
-        mut t_max: f64,
-        Pending(stack): &mut Pending,
-        mut visit: impl FnMut(RootId, f64) -> f64,
-    ) {
-        let Some((bounds, mut at)) = self.top else { return };
-        let Some(mut entry) = bounds.entry(ray, 0.0, t_max) else { return };
-        let mut depth = 0;
-        loop {
-            if entry <= t_max {
-                if at.count > 0 {
-                    for &root in &self.roots[at.to as usize..(at.to + at.count) as usize] {
-                        t_max = visit(root, t_max);
-                    }
-                    if t_max < 0.0 {
-                        return;
-                    }
-                } else {
-                    let node = &self.nodes[at.to as usize];
-                    let [first, second] = node.entries(ray, t_max);
-                    let [a, b] = node.children;
-                    let (near, far) =
-                        if first <= second { ((first, a), (second, b)) } else { ((second, b), (first, a)) };
-                    if far.0 < f64::INFINITY {
-                        stack[depth] = far;
-                        depth += 1;
-                    }
-                    if near.0 < f64::INFINITY {
-                        (entry, at) = near;
-                        continue;
-                    }
-                }
-            }
-            if depth == 0 {
-                return;
-            }
-            depth -= 1;
-            (entry, at) = stack[depth];
+    /// All bounded solids in one box, without a hierarchy.
+    pub fn flat(unbounded: Vec<RootId>, bounded: Vec<(RootId, Aabb)>) -> Self {
+        let mut bvh = Self::without_bounds(unbounded);
+        if !bounded.is_empty() {
+            bvh.top = Some(bvh.add_leaf(&bounded));
         }
+        bvh
+    }
+
+    fn without_bounds(roots: Vec<RootId>) -> Self {
+        Self { unbounded: roots.len() as u32, roots, ..Self::default() }
+    }
+
+    /// All roots: those without bounds, and the others.
+    pub fn roots(&self) -> (&[RootId], &[RootId]) {
+        self.roots.split_at(self.unbounded as usize)
+    }
+
+    /// Starts the walk of `ray` through the solids that it may meet before `t_max`.
+    #[inline(always)]
+    pub fn walk<'a>(&'a self, ray: &'a Ray, t_max: f64, Pending(pending): &'a mut Pending) -> Walk<'a> {
+        let mut depth = 0;
+        if let Some((bounds, top)) = self.top
+            && let Some(entry) = bounds.entry(ray, 0.0, t_max)
+        {
+            pending[depth] = (entry, top);
+            depth += 1;
+        }
+        if self.unbounded > 0 {
+            pending[depth] = (0.0, Child { to: 0, count: self.unbounded });
+            depth += 1;
+        }
+        Walk { bvh: self, ray, pending, depth }
     }
 
     fn build(&mut self, solids: &mut [(RootId, Aabb)], depth: u32) -> (Aabb, Child) {
-        let bounds = solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
         let Some(place) = split(solids, depth) else {
-            let leaf = Child { to: self.roots.len() as u32, count: solids.len() as u32 };
-            self.roots.extend(solids.iter().map(|(root, _)| root));
-            return (bounds, leaf);
+            return self.add_leaf(solids);
         };
+        let bounds = bounds_of(solids);
         let number = self.nodes.len();
         self.nodes.push(Node::default());
         let (first, second) = solids.split_at_mut(place);
@@ -125,6 +103,59 @@ impl Bvh {
             node.children[side] = child;
         }
         (bounds, Child { to: number as u32, count: 0 })
+    }
+
+    fn add_leaf(&mut self, solids: &[(RootId, Aabb)]) -> (Aabb, Child) {
+        let leaf = Child { to: self.roots.len() as u32, count: solids.len() as u32 };
+        self.roots.extend(solids.iter().map(|(root, _)| root));
+        (bounds_of(solids), leaf)
+    }
+}
+
+fn bounds_of(solids: &[(RootId, Aabb)]) -> Aabb {
+    solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds))
+}
+
+/// A ray's walk through a hierarchy: first the solids without bounds, then those whose boxes the ray meets, in the
+/// order in which it enters the boxes.
+#[derive(Debug)]
+pub(super) struct Walk<'a> {
+    bvh: &'a Bvh,
+    ray: &'a Ray,
+    /// Boxes to be visited, the next one last, and where the ray enters them.
+    pending: &'a mut [(f64, Child)],
+    depth: usize,
+}
+
+impl<'a> Walk<'a> {
+    /// Returns the next solids that the ray may meet before `t_max`, which may be less with each call.
+    #[inline(always)]
+    pub fn next(&mut self, t_max: f64) -> Option<&'a [RootId]> {
+        while self.depth > 0 {
+            self.depth -= 1;
+            let (entry, mut at) = self.pending[self.depth];
+            if entry > t_max {
+                continue;
+            }
+            loop {
+                if at.count > 0 {
+                    return Some(&self.bvh.roots[at.to as usize..(at.to + at.count) as usize]);
+                }
+                let node = &self.bvh.nodes[at.to as usize];
+                let [first, second] = node.entries(self.ray, t_max);
+                let [a, b] = node.children;
+                let (near, far) = if first <= second { ((first, a), (second, b)) } else { ((second, b), (first, a)) };
+                if far.0 < f64::INFINITY {
+                    self.pending[self.depth] = far;
+                    self.depth += 1;
+                }
+                if near.0 == f64::INFINITY {
+                    break;
+                }
+                at = near.1;
+            }
+        }
+        None
     }
 }
 

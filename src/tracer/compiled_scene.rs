@@ -12,10 +12,7 @@ use crate::scene::{Light, Material, Scene, ior, media_of};
 #[derive(Debug)]
 pub(super) struct CompiledScene {
     pub tree: Tree,
-    /// The roots with finite bounds.
-    pub bounded: Bvh,
-    /// The roots without finite bounds.
-    pub unbounded: Vec<RootId>,
+    pub bvh: Bvh,
     pub background: DVec3,
     pub lights: Vec<Light>,
     /// The transmitting solids that the eye is in.
@@ -104,8 +101,7 @@ impl CompiledScene {
         }
         Self {
             tree,
-            bounded: if passes.has(Pass::Bvh) { Bvh::new(bounded) } else { Bvh::flat(bounded) },
-            unbounded,
+            bvh: if passes.has(Pass::Bvh) { Bvh::new(unbounded, bounded) } else { Bvh::flat(unbounded, bounded) },
             background: scene.background,
             lights: scene.lights.clone(),
             eye_media,
@@ -117,9 +113,10 @@ impl CompiledScene {
         }
     }
 
-    /// All roots: the unbounded ones first, then those of the hierarchy.
+    /// All roots.
     pub fn roots(&self) -> impl Iterator<Item = RootId> {
-        self.unbounded.iter().copied().chain(self.bounded.roots())
+        let (unbounded, bounded) = self.bvh.roots();
+        unbounded.iter().chain(bounded).copied()
     }
 
     /// Whether a ray in `media` is in the solid `root`.

@@ -46,28 +46,16 @@ impl CompiledScene {
         let HitScratch { spans, boxes, ties, .. } = scratch;
         ties.clear();
         let mut nearest = NearestHits { nearest: None, ties };
-        let test = |root: RootId, t_max: f64| {
-            let is_inside = || self.is_inside(root, media);
-            match self.tree.nearest(root, ray, start, t_max, is_inside, spans) {
-                Some(hit) => nearest.add(root, hit, ray),
-                None => t_max,
-            }
-        };
-        self.visit_roots(ray, f64::INFINITY, boxes, test);
-        nearest.first_by_rank(ray)
-    }
-
-    /// Visits the solids that `ray` may meet before `t_max`: those without bounds, then the others, nearer boxes first.
-    /// `visit` returns the new `t_max`; a negative one ends the search.
-    #[inline(always)]
-    fn visit_roots(&self, ray: &Ray, mut t_max: f64, pending: &mut Pending, mut visit: impl FnMut(RootId, f64) -> f64) {
-        for &root in &self.unbounded {
-            t_max = visit(root, t_max);
-            if t_max < 0.0 {
-                return;
+        let mut t_max = f64::INFINITY;
+        let mut walk = self.bvh.walk(ray, t_max, boxes);
+        while let Some(roots) = walk.next(t_max) {
+            for &root in roots {
+                if let Some(hit) = self.tree.nearest(root, ray, start, t_max, self.is_inside(root, media), spans) {
+                    t_max = nearest.add(root, hit, ray);
+                }
             }
         }
-        self.bounded.visit(ray, t_max, pending, visit);
+        nearest.first_by_rank(ray)
     }
 
     /// The part of a light's intensity that arrives at a point in `media` over the distance `t_max`, for red, green and
@@ -85,19 +73,19 @@ impl CompiledScene {
         let HitScratch { spans, boxes, surfaces, media: inside, .. } = scratch;
         let mut blocked = false;
         surfaces.clear();
-        let test = |root: RootId, t_max: f64| {
-            let is_inside = || self.is_inside(root, media);
-            self.tree.crossings(root, ray, Some(start), t_max, is_inside, spans, |hit| {
-                let shading = self.shading(hit.surface);
-                surfaces.push(TransparentCrossing { t: hit.t, root, enters: hit.enters, kt: shading.kt });
-                blocked |= !shading.transmits;
-                shading.transmits
-            });
-            if blocked { -1.0 } else { t_max }
-        };
-        self.visit_roots(ray, t_max, boxes, test);
-        if blocked {
-            return DVec3::ZERO;
+        let mut walk = self.bvh.walk(ray, t_max, boxes);
+        while let Some(roots) = walk.next(t_max) {
+            for &root in roots {
+                self.tree.crossings(root, ray, Some(start), t_max, self.is_inside(root, media), spans, |hit| {
+                    let shading = self.shading(hit.surface);
+                    surfaces.push(TransparentCrossing { t: hit.t, root, enters: hit.enters, kt: shading.kt });
+                    blocked = !shading.transmits;
+                    shading.transmits
+                });
+                if blocked {
+                    return DVec3::ZERO;
+                }
+            }
         }
         if surfaces.is_empty() {
             return DVec3::ONE;
@@ -120,18 +108,18 @@ impl CompiledScene {
     ) -> f64 {
         let HitScratch { spans, boxes, .. } = scratch;
         let mut end = t_max;
-        let test = |root: RootId, t_max: f64| {
-            let is_inside = || self.is_inside(root, media);
-            self.tree.crossings(root, ray, Some(start), t_max, is_inside, spans, |hit| {
-                let passes = self.shading(hit.surface).transmits;
-                if !passes {
-                    end = hit.t;
-                }
-                passes
-            });
-            end
-        };
-        self.visit_roots(ray, t_max, boxes, test);
+        let mut walk = self.bvh.walk(ray, end, boxes);
+        while let Some(roots) = walk.next(end) {
+            for &root in roots {
+                self.tree.crossings(root, ray, Some(start), end, self.is_inside(root, media), spans, |hit| {
+                    let passes = self.shading(hit.surface).transmits;
+                    if !passes {
+                        end = hit.t;
+                    }
+                    passes
+                });
+            }
+        }
         end
     }
 }

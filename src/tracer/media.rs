@@ -33,7 +33,9 @@ impl MediaSets {
         self.all.clear();
         self.sets.clear();
         self.all.extend_from_slice(eye);
-        self.intern(0)
+        let media = Media { start: 0, end: eye.len() };
+        self.sets.push(media);
+        media
     }
 
     /// The media of a set.

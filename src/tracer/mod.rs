@@ -123,7 +123,7 @@ impl Tracer {
     /// The boxes of all primitives of bounded solids, each clipped to its solid's bounds. Outside its box a primitive
     /// cannot matter.
     pub fn boxes(&self) -> Vec<Aabb> {
-        self.scene.bounded.roots().flat_map(|root| self.scene.tree.boxes_of(root)).collect()
+        self.scene.bvh.roots().1.iter().flat_map(|&root| self.scene.tree.boxes_of(root)).collect()
     }
 
     /// Traces `pixels` (positions in scan order) and appends their colours to `out`.

@@ -78,7 +78,7 @@ impl Tracer {
             source: scene.source,
             solids: roots.len(),
             compositions: operations.clone().filter(|&operations| operations > 0).count(),
-            unbounded: scene.unbounded.len(),
+            unbounded: scene.bvh.roots().0.len(),
             operations: operations.sum(),
             primitives,
             dropped: scene.dropped,

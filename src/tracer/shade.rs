@@ -41,10 +41,9 @@ struct ShadingPoint<'a> {
 impl Tracer {
     /// The colour of a sample, given its primary ray, in linear light.
     pub(super) fn sample(&self, ray: &Ray, scratch: &mut Scratch, observer: &mut impl Observer) -> DVec3 {
-        scratch.rays.count(RayKind::Primary);
         let media = scratch.media.restart(&self.scene.eye_media);
         scratch.queue.restart();
-        let primary = QueuedRay {
+        let mut queued = QueuedRay {
             kind: RayKind::Primary,
             weight: DVec3::ONE,
             level: 1,
@@ -54,10 +53,14 @@ impl Tracer {
             start: None,
             media,
         };
-        let mut colour = self.colour(&primary, scratch, observer);
-        while let Some(queued) = scratch.queue.next(self.quality.cutoff) {
+        let mut colour = DVec3::ZERO;
+        loop {
             scratch.rays.count(queued.kind);
             colour += self.colour(&queued, scratch, observer) * queued.weight;
+            match scratch.queue.next(self.quality.cutoff) {
+                Some(next) => queued = next,
+                None => break,
+            }
         }
         observer.note(|| Note::LeftOut(scratch.queue.remaining_weight(), scratch.queue.remaining_rays()));
         colour

@@ -27,7 +27,7 @@ fn picture(solid: &Solid) -> String {
         for x in 0..32 {
             let (x, y) = ((f64::from(x) - 15.5) / 8.0, (7.5 - f64::from(y)) / 4.0);
             let ray = Ray::new(DVec3::new(x, y, 10.0), DVec3::NEG_Z);
-            let hit = root.and_then(|root| tree.nearest(root, &ray, None, f64::INFINITY, || false, &mut Stack::new()));
+            let hit = root.and_then(|root| tree.nearest(root, &ray, None, f64::INFINITY, false, &mut Stack::new()));
             rows.push(hit.map_or('.', |hit| char::from(b'a' + tree.leaf(hit.surface).tag.0 as u8)));
         }
         rows.push('\n');
@@ -98,7 +98,7 @@ fn rays_pass_a_bore_with_coincident_caps() {
         // Slightly tilted: every ray passes both caps and misses the side.
         let direction = (axis + side * 0.02 * (f64::from(index % 7) / 7.0)).normalize();
         let ray = Ray::new(at + offset - direction * 8.0, direction);
-        wrong += u32::from(tree.nearest(root, &ray, None, f64::INFINITY, || false, &mut Stack::new()).is_some());
+        wrong += u32::from(tree.nearest(root, &ray, None, f64::INFINITY, false, &mut Stack::new()).is_some());
     }
     assert_eq!(wrong, 0, "rays of 10,000 that hit a surface over the bore");
 }
@@ -118,18 +118,10 @@ fn crossings(solid: &Solid, ray: &Ray) -> Vec<(f64, u32)> {
     let mut tree = Tree::default();
     let Some((root, _)) = tree.add(solid) else { return Vec::new() };
     let mut found = Vec::new();
-    tree.crossings(
-        root,
-        ray,
-        None,
-        f64::INFINITY,
-        || tree.contains(root, ray.origin, 0.0),
-        &mut Stack::new(),
-        |hit| {
-            found.push((hit.t, tree.leaf(hit.surface).tag.0));
-            true
-        },
-    );
+    tree.crossings(root, ray, None, f64::INFINITY, tree.contains(root, ray.origin, 0.0), &mut Stack::new(), |hit| {
+        found.push((hit.t, tree.leaf(hit.surface).tag.0));
+        true
+    });
     found
 }
 

@@ -49,7 +49,7 @@ proptest! {
         let target = map.transform_point3(aim);
         let ray = Ray::new(target - from.normalize() * 5.0, from.normalize());
         let stack = &mut Stack::new();
-        let hit = tree.nearest(root, &ray, None, f64::INFINITY, || false, stack);
+        let hit = tree.nearest(root, &ray, None, f64::INFINITY, false, stack);
         let Some(hit) = hit.filter(|hit| hit.enters) else { return Ok(()) };
         let normal = tree.leaf(hit.surface).normal(hit.surface.face, ray.at(hit.t));
         let along = normal.cross(aside.normalize());
@@ -59,7 +59,7 @@ proptest! {
         let mut next = |side: f64| {
             let direction = along.normalize() * cosine + normal * (side * sine);
             let onward = ray.onward(hit.t, direction.normalize());
-            tree.nearest(root, &onward, Some(start), f64::INFINITY, || side < 0.0, stack)
+            tree.nearest(root, &onward, Some(start), f64::INFINITY, side < 0.0, stack)
         };
         let (outwards, is_convex) = (next(1.0), !matches!(primitive, Primitive::Torus { .. }));
         prop_assert!(outwards.is_none_or(|hit| !is_convex && hit.enters), "outwards at 1e-{power}: {outwards:?}");

@@ -54,18 +54,10 @@ fn crossing_distances(solid: &Solid, ray: &Ray) -> Vec<f64> {
     let mut tree = Tree::default();
     let mut places = Vec::new();
     if let Some((root, _)) = tree.add(solid) {
-        tree.crossings(
-            root,
-            ray,
-            None,
-            f64::INFINITY,
-            || false,
-            &mut Stack::new(),
-            |hit| {
-                places.push(hit.t);
-                true
-            },
-        );
+        tree.crossings(root, ray, None, f64::INFINITY, false, &mut Stack::new(), |hit| {
+            places.push(hit.t);
+            true
+        });
     }
     places
 }

@@ -59,18 +59,10 @@ impl PlacedPrimitive {
     /// Returns the crossings of the boundary as this program finds them, by a ray that is inside at first or not.
     pub fn crossings(&self, ray: &Ray, start: Option<RayStart>, is_inside: bool) -> Vec<Hit> {
         let mut hits = Vec::new();
-        self.tree.crossings(
-            self.root,
-            ray,
-            start,
-            f64::INFINITY,
-            || is_inside,
-            &mut Stack::new(),
-            |hit| {
-                hits.push(hit);
-                true
-            },
-        );
+        self.tree.crossings(self.root, ray, start, f64::INFINITY, is_inside, &mut Stack::new(), |hit| {
+            hits.push(hit);
+            true
+        });
         hits
     }
 

@@ -181,18 +181,10 @@ impl Tally {
             let is_inside = inside >> before & 1 == 1;
             hits.clear();
             if let Some(root) = root {
-                tree.crossings(
-                    root,
-                    &seen.ray,
-                    None,
-                    seen.t_max,
-                    || is_inside,
-                    &mut stack,
-                    |hit| {
-                        hits.push(hit);
-                        true
-                    },
-                );
+                tree.crossings(root, &seen.ray, None, seen.t_max, is_inside, &mut stack, |hit| {
+                    hits.push(hit);
+                    true
+                });
             }
             drop_touches(&mut hits, &seen.ray);
             let Some(agrees) = agrees(&passage, inside, &seen, &tree, &hits) else { continue };
