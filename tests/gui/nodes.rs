@@ -1,6 +1,8 @@
 //! A machine: its speed by slider, number and key, its pause, its selection, and undo.
 
+use anel::gui::Phase;
 use anel::record::RecordKind;
+use anel::time::Time;
 use egui::Key;
 use egui_kittest::kittest::Queryable;
 
@@ -41,6 +43,23 @@ fn speed_set_during_a_pause_applies_after_it() {
     assert_eq!(session(&window).speed(7), 0.5);
     press(&mut window, "Resume");
     until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(7, 0.5)));
+}
+
+#[test]
+fn earlier_moment_of_a_finished_run_has_its_own_speeds() {
+    let mut window = open(SIZE);
+    key(&mut window, Key::E);
+    window.get_by_label("Full speed").click_accesskit();
+    window.run_steps(3);
+    until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
+    type_number(&mut window, "Exact speed of machine 2", "37");
+    assert_eq!(session(&window).speed(1), 0.37, "the next run's");
+    window.state_mut().seek(Time(1));
+    window.run_steps(2);
+    assert_eq!(session(&window).speed(1), 1.0, "the run's at its beginning");
+    type_number(&mut window, "Exact speed of machine 2", "50");
+    assert!(session(&window).stage().shows_end() && notice(&window).contains("for the next one"));
+    assert_eq!(session(&window).speed(1), 0.5);
 }
 
 #[test]
@@ -88,8 +107,6 @@ fn machine_is_selected_and_changed_with_keys() {
     window.get_by_label("Machine 3").click();
     window.run_steps(2);
     assert_eq!(window.state().selected(), Some(2));
-    // Esc closes the notice first, then the selection.
-    key(&mut window, Key::Escape);
     key(&mut window, Key::Escape);
     assert_eq!(window.state().selected(), None);
 }

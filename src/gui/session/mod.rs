@@ -246,10 +246,11 @@ impl Session {
 
     /// Pauses or resumes a machine.
     pub fn toggle_node_pause(&mut self, node: NodeId) {
+        if self.stage.phase != Phase::Running {
+            return;
+        }
         self.return_to_present();
-        if let Some(paused) = self.stage.paused_nodes.get_mut(usize::from(node))
-            && self.stage.phase == Phase::Running
-        {
+        if let Some(paused) = self.stage.paused_nodes.get_mut(usize::from(node)) {
             *paused = !*paused;
             self.stage.source.command(Command::Pause { node, paused: *paused });
         }
@@ -295,11 +296,16 @@ impl Session {
         self.stage.now()
     }
 
-    /// Returns the speed of a machine: in a live run the one that is set, else the recorded one at the shown time.
+    /// Returns the speed of a machine: in the present of a live run the one that is set, else the recorded one at the
+    /// shown time.
     pub fn speed(&self, node: NodeId) -> f64 {
         let index = usize::from(node);
         let recorded = || self.stage.state().nodes().get(index).map_or(0.0, |node| node.speed);
-        if self.is_recorded() || !self.stage.is_live() && self.stage.phase == Phase::Running {
+        let shows_past = match self.stage.phase {
+            Phase::Running => !self.stage.is_live(),
+            _ => !self.stage.shows_end(),
+        };
+        if self.is_recorded() || shows_past {
             recorded()
         } else {
             self.settings.all_speeds().nth(index).unwrap_or_else(recorded)

@@ -80,6 +80,13 @@ impl Session {
                 "Back in the present: changes act on the run as it is now",
                 "De volta ao presente: as mudanças valem para a execução como está agora"
             ));
+        } else if self.stage.phase == Phase::Finished && !self.stage.shows_end() {
+            self.stage.follow();
+            self.note(word!(
+                language,
+                "The run has ended: the change is for the next one",
+                "A execução terminou: a mudança vale para a próxima"
+            ));
         }
     }
 }
