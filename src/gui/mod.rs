@@ -27,7 +27,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-pub use app::{App, Launch};
+pub use app::{App, Closable, Launch};
 pub use session::opening::Opening;
 pub use session::{Phase, Session, Stage};
 pub use settings::Settings;

@@ -120,6 +120,14 @@ pub fn key(window: &mut Window, key: Key) {
     window.run_steps(3);
 }
 
+/// Presses Esc, once more if a text field has the focus: the first Esc leaves the field.
+pub fn escape(window: &mut Window) {
+    if window.ctx.text_edit_focused() {
+        key(window, Key::Escape);
+    }
+    key(window, Key::Escape);
+}
+
 /// Presses a key together with Ctrl.
 pub fn ctrl(window: &mut Window, key: Key) {
     window.key_press_modifiers(Modifiers::COMMAND, key);

@@ -86,7 +86,7 @@ fn path_that_is_not_a_scene_is_refused_in_a_sentence() {
         until(&mut window, "notice", |window| {
             notice(window).contains(why) || window.query_by_label_contains(why).is_some()
         });
-        key(&mut window, Key::Escape);
+        escape(&mut window);
         assert!(shows(&window, "ten-objects"));
     }
 }

@@ -157,7 +157,10 @@ fn assert_pages_legible(size: [f32; 2], in_projector_mode: bool) {
         ] {
             key(&mut walk.window, open);
             walk.look(page, hidden);
-            key(&mut walk.window, if matches!(open, Key::E | Key::T) { open } else { Key::Escape });
+            match open {
+                Key::E | Key::T => key(&mut walk.window, open),
+                _ => escape(&mut walk.window),
+            }
         }
         key(&mut walk.window, Key::Num3);
         walk.look("a machine", Hidden::Nothing);

@@ -4,6 +4,7 @@
 mod accuracy;
 mod compare;
 mod driving;
+mod escape;
 mod failing;
 mod files;
 mod inspector;

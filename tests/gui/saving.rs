@@ -54,7 +54,7 @@ fn run_is_saved_and_opened_with_keys() {
     key(&mut window, Key::Enter);
     until(&mut window, "a file", |_| path.is_file());
     until(&mut window, "notice", |window| notice(window).contains("run.anel"));
-    key(&mut window, Key::Escape);
+    escape(&mut window);
     key(&mut window, Key::O);
     press(&mut window, "Open the last saved run");
     until(&mut window, "the run", |window| session(window).is_recorded());
@@ -80,7 +80,7 @@ fn owners_and_blend_are_different_pictures_with_their_own_names() {
         key(&mut window, Key::Enter);
         until(&mut window, "a file", |window| notice(window).starts_with("Saved to"));
         pictures.push(image::open(&path).expect("a PNG").to_rgb8().into_raw());
-        key(&mut window, Key::Escape);
+        escape(&mut window);
     }
     let different = |one: &[u8], other: &[u8]| one.iter().zip(other).filter(|(a, b)| a != b).count();
     for (one, other) in [(0, 1), (1, 2), (0, 2)] {
@@ -208,7 +208,7 @@ fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
     until(&mut window, "notice", |window| notice(window).starts_with("Saved to"));
     assert_eq!(image::image_dimensions(&path).expect("a PNG"), (200, 50));
     window.get_by_label_contains("The shape differs from the picture's");
-    key(&mut window, Key::Escape);
+    escape(&mut window);
     let path = save(&mut window, "huge.png");
     press(&mut window, "4K");
     assert!(window.query_by_label_contains("The shape differs from the picture's").is_none());
@@ -351,7 +351,7 @@ fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
     }
     assert!(file_name(&typed(&window)).ends_with("picture.pngr s"), "{:?}", typed(&window));
     assert!(done(&window) >= then && !session(&window).stage().paused);
-    key(&mut window, Key::Escape);
+    escape(&mut window);
     assert!(window.query_by_label(FIELD).is_none());
     key(&mut window, Key::Space);
     assert!(session(&window).stage().paused);

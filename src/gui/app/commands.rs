@@ -14,6 +14,10 @@ impl App {
     /// Executes a command; an open page or lesson gets it first.
     pub(super) fn handle_command(&mut self, command: UserCommand, ctx: &Context) {
         let language = self.session.language();
+        // A key that is tried while the list of keys is open does what the list says.
+        if self.help && !matches!(command, UserCommand::Help | UserCommand::Back | UserCommand::Quit) {
+            self.help = false;
+        }
         // A presenter's remote control sends only Page Down and Page Up.
         if let (true, false, UserCommand::Dolly(back)) = (self.projector, self.learn.is_on(), command) {
             let forward = if back { UserCommand::Beginning } else { UserCommand::Pause };
@@ -137,7 +141,7 @@ impl App {
             }
             UserCommand::Projector => self.set_projector(!self.projector, ctx),
             UserCommand::Help => self.help = !self.help,
-            UserCommand::Back => self.close_topmost(ctx),
+            UserCommand::Back => self.close_innermost(ctx),
             UserCommand::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
     }
@@ -148,7 +152,7 @@ impl App {
     }
 
     /// Switches presentation mode on or off.
-    fn set_projector(&mut self, projector: bool, ctx: &Context) {
+    pub(super) fn set_projector(&mut self, projector: bool, ctx: &Context) {
         /// Zoom factor of presentation mode.
         const PROJECTOR_ZOOM: f32 = 1.5;
         self.projector = projector;
@@ -188,40 +192,5 @@ impl App {
             _ => steps.take_while(|&step| step < now - 0.001).last().unwrap_or(0.0),
         };
         self.session.change(Gesture::Once, |settings| settings.set_speed(node, speed));
-    }
-
-    /// Closes what lies on top: help, list, page, bar, notice, inspector, mode, zoom, selection or lesson.
-    fn close_topmost(&mut self, ctx: &Context) {
-        if self.is_waiting_to_quit() {
-            self.stay_open();
-        } else if self.help {
-            self.help = false;
-        } else if self.time.is_finding() {
-            self.time.toggle_find();
-        } else if self.gallery.is_open() {
-            self.gallery.close();
-        } else if self.accuracy.is_open() {
-            self.accuracy.close(&mut self.session);
-        } else if self.compare.is_open() {
-            self.compare.close(&mut self.session);
-        } else if self.learn.is_open() {
-            self.learn.close();
-        } else if self.save_bar.is_open() {
-            self.save_bar.close();
-        } else if self.session.notice().is_some() {
-            self.session.close_notice();
-        } else if self.session.inspected_pixel().is_some() {
-            self.session.stop_inspecting();
-        } else if self.projector {
-            self.set_projector(false, ctx);
-        } else if self.picture.moves_camera {
-            self.picture.moves_camera = false;
-        } else if self.picture.is_zoomed() {
-            self.picture.show_all();
-        } else if self.selection.selected.is_some() {
-            self.selection.selected = None;
-        } else {
-            self.learn.leave(&mut self.session);
-        }
     }
 }

@@ -4,6 +4,7 @@ mod commands;
 mod launch;
 mod main_area_layout;
 mod notices;
+mod open_stack;
 mod quitting;
 mod repaint_schedule;
 mod stored_path;
@@ -39,6 +40,8 @@ use crate::time::Time;
 use crate::view::{Details, Highlight, Subject};
 pub use launch::Launch;
 use main_area_layout::split_main_area;
+pub use open_stack::Closable;
+use open_stack::OpenStack;
 use quitting::Quitting;
 
 /// The content of the window.
@@ -69,6 +72,7 @@ pub struct App {
     /// Presentation mode: large text, strong colours, no controls.
     projector: bool,
     quitting: Quitting,
+    open_stack: OpenStack,
 }
 
 /// The state that the next window restores, beside egui's own.
@@ -132,6 +136,7 @@ impl App {
             runs_begun: 0,
             projector: stored.projector,
             quitting: Quitting::default(),
+            open_stack: OpenStack::default(),
         }
     }
 
@@ -383,6 +388,7 @@ impl eframe::App for App {
         if !ui.input(|input| input.raw.hovered_files.is_empty()) {
             notice::drop_here(ui, language);
         }
+        self.update_open_stack(ui.ctx());
     }
 
     fn save(&mut self, storage: &mut dyn Storage) {

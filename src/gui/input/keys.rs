@@ -343,7 +343,7 @@ pub const KEY_TABLE: &[KeyRow] = &[
     },
     KeyRow {
         keys_text: same("Esc"),
-        effect: ("Close what is open", "Fechar o que está aberto"),
+        effect: ("Close what was opened last", "Fechar o que foi aberto por último"),
         keys: &[(NONE, Key::Escape, UserCommand::Back)],
     },
     KeyRow {

@@ -13,8 +13,8 @@ use std::cell::Cell;
 use std::ops::RangeInclusive;
 
 use egui::{
-    Align, Color32, Context, DragValue, Frame, Label, Layout, Rect, Response, RichText, Role, Sense, Stroke,
-    StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align, Color32, Context, DragValue, Frame, Id, Key, Label, Layout, Modifiers, Rect, Response, RichText, Role,
+    Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use crate::language::{Language, word};
@@ -175,7 +175,11 @@ pub fn number_field<N: egui::emath::Numeric>(
         }
         let speed = (range.end().to_f64() - range.start().to_f64()).clamp(10.0, 2000.0) / 400.0;
         let refused = Cell::new(None);
+        let is_dropped = is_text_dropped(ui.ctx());
         let parse = |text: &str| {
+            if is_dropped {
+                return None;
+            }
             number::parse(text, suffix, N::INTEGRAL, language)
                 .map_err(|why| refused.set(Some((text.trim().to_owned(), why))))
                 .ok()
@@ -184,6 +188,7 @@ pub fn number_field<N: egui::emath::Numeric>(
         let field = DragValue::new(value).range(range).suffix(suffix).max_decimals(0).speed(speed);
         let field = field.update_while_editing(false).custom_parser(parse);
         let response = ui.add(field.custom_formatter(|number, _| number::format(number, language)));
+        keep_escape(ui, &response);
         show_refusal(ui, &response, refused.take(), name);
         let exact = value.to_f64();
         response.widget_info(|| WidgetInfo {
@@ -193,6 +198,24 @@ pub fn number_field<N: egui::emath::Numeric>(
         response
     })
     .inner
+}
+
+/// Whether Esc has just left a text field, so that its text does not count. egui forgets the key one frame too early:
+/// for two frames it asks for the value of a text that was left.
+fn is_text_dropped(ctx: &Context) -> bool {
+    let id = Id::unique("pass of the last Esc");
+    let pass = ctx.cumulative_pass_nr();
+    if ctx.input(|input| input.key_pressed(Key::Escape)) {
+        ctx.data_mut(|data| data.insert_temp(id, pass));
+    }
+    ctx.data(|data| data.get_temp::<u64>(id)).is_some_and(|last| pass <= last + 2)
+}
+
+/// Keeps the Esc that has left a text field from closing the menu around the field.
+pub fn keep_escape(ui: &Ui, field: &Response) {
+    if field.lost_focus() {
+        ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
+    }
 }
 
 /// Reports a refused text, and frames the field until it is edited again.

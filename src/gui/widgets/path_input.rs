@@ -6,6 +6,7 @@ use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Key, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
+use super::keep_escape;
 use super::theme::{GRID, Look};
 use crate::language::{Language, say, word};
 
@@ -83,6 +84,7 @@ pub fn path_field(
     let field = ui.add(field);
     field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    keep_escape(ui, &field);
     let begins = std::mem::take(wants_focus);
     if begins || entered {
         field.request_focus();
