@@ -76,6 +76,30 @@ fn bad_scene_names_the_place_and_does_not_replace_the_open_one() {
 }
 
 #[test]
+fn notice_about_a_file_ends_when_a_file_is_opened() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = ball(&directory, "ball.ron");
+    std::fs::write(&path, scene("radius: -1")).expect("a file");
+    let mut window = open(SIZE);
+    open_path(&mut window, &path);
+    until(&mut window, "notice", |window| notice(window).starts_with("Not opened"));
+    // The next attempt, with the mistake mended.
+    std::fs::write(&path, scene("radius: 1")).expect("a file");
+    open_path(&mut window, &path);
+    until(&mut window, "the scene", |window| shows(window, "ball"));
+    assert_eq!(notice(&window), "");
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    std::fs::write(&path, scene("radius: 0.25")).expect("a file");
+    until(&mut window, "offer to reload", |window| notice(window) == "ball.ron has changed on disk");
+    key(&mut window, Key::R);
+    assert_eq!(notice(&window), "ball.ron has changed on disk", "a new run changes nothing about the file");
+    press(&mut window, "Scenes");
+    press(&mut window, "Open glass");
+    until(&mut window, "the scene", |window| shows(window, "glass"));
+    assert_eq!(notice(&window), "");
+}
+
+#[test]
 fn path_that_is_not_a_scene_is_refused_in_a_sentence() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open(SIZE);

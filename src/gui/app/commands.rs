@@ -41,7 +41,7 @@ impl App {
             UserCommand::Pause => session.toggle_pause(),
             UserCommand::Restart => {
                 session.restart();
-                session.end_notice();
+                session.end_notices();
             }
             UserCommand::Step(by, forward) => session.step(by, forward),
             UserCommand::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
@@ -156,7 +156,7 @@ impl App {
         /// Zoom factor of presentation mode.
         const PROJECTOR_ZOOM: f32 = 1.5;
         self.projector = projector;
-        self.session.end_notice();
+        self.session.end_notices();
         if projector {
             // They can be opened again in presentation mode.
             self.setup.open = false;

@@ -7,18 +7,19 @@ use crate::gui::panels::notice::{self, NoticeAction};
 use crate::gui::widgets::theme::GRID;
 
 impl App {
-    /// Shows the progress of an export, the last notice, or the loading message; the first that applies.
+    /// Shows the progress of an export, and above it the notice to be read now, or else the loading message.
     pub(super) fn notices(&mut self, ctx: &Context) {
         let language = self.session.language();
-        let at = self.notice_corner(ctx);
-        let is_free = self.session.notice().is_none();
-        let export = self.session.export_progress().filter(|(_, secs, _)| is_free && *secs > 0.4);
-        if let Some(progress) = export {
-            if notice::export_progress(ctx, at, progress, language) {
+        let mut at = self.notice_corner(ctx);
+        if let Some(progress) = self.session.export_progress().filter(|(_, secs, _)| *secs > 0.4) {
+            let (top, is_cancelled) = notice::export_progress(ctx, at, progress, language);
+            if is_cancelled {
                 self.session.cancel_export();
             }
-        } else if let Some(notice) = self.session.notice().cloned() {
-            match notice::show(&notice, ctx, at, language) {
+            at.y = top - GRID / 2.0;
+        }
+        if let Some(notice) = self.session.notice().cloned() {
+            match notice::show(&notice, self.session.notices_waiting(), ctx, at, language) {
                 Some(NoticeAction::Close) => self.session.close_notice(),
                 Some(NoticeAction::Reload) => self.session.reload(),
                 None => {}

@@ -18,17 +18,23 @@ pub enum NoticeAction {
     Reload,
 }
 
-/// Shows a notice with its lower right corner at `at`. Returns the action of the pressed button.
-pub fn show(notice: &Notice, ctx: &Context, at: Pos2, language: Language) -> Option<NoticeAction> {
+/// Shows a notice with its lower right corner at `at`, and how many others are `waiting` behind it. Returns the action of
+/// the pressed button.
+pub fn show(notice: &Notice, waiting: usize, ctx: &Context, at: Pos2, language: Language) -> Option<NoticeAction> {
     let look = Look::of(ctx);
-    floating(ctx, at, |ui| {
+    floating(ctx, "notice", at, |ui| {
         let colour = if notice.kind == NoticeKind::Trouble { look.trouble } else { look.text };
         let text = RichText::new(&notice.text).font(theme::regular(theme::BODY)).color(colour);
         ui.scope(|ui| {
             let buttons = if notice.kind == NoticeKind::Changed { 17.0 } else { 6.0 };
-            ui.set_max_width(max_width(ui) - buttons * GRID);
+            let others = if waiting > 0 { 12.0 } else { 0.0 };
+            ui.set_max_width(max_width(ui) - (buttons + others) * GRID);
             ui.add(Label::new(text).wrap());
         });
+        if waiting > 0 {
+            let text = say!(language, "and {waiting} more", "e mais {waiting}");
+            ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet));
+        }
         let name = word!(language, "Reload", "Recarregar");
         let reload = notice.kind == NoticeKind::Changed && button(ui, None, name, true, Emphasis::Primary).clicked();
         let close = word!(language, "Close notice", "Fechar aviso");
@@ -40,18 +46,23 @@ pub fn show(notice: &Notice, ctx: &Context, at: Pos2, language: Language) -> Opt
 /// Shows that the file `name` is being read and compiled.
 pub fn loading(ctx: &Context, at: Pos2, name: &str, language: Language) {
     let look = Look::of(ctx);
-    floating(ctx, at, |ui| {
+    floating(ctx, "notice", at, |ui| {
         ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
         let text = say!(language, "Reading and compiling {name} …", "Lendo e compilando {name} …");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
     });
 }
 
-/// Shows the progress of an export: file name, elapsed seconds, and the share that is done. Returns whether Cancel was
-/// pressed.
-pub fn export_progress(ctx: &Context, at: Pos2, (name, secs, share): (&str, f64, f64), language: Language) -> bool {
+/// Shows the progress of an export: file name, elapsed seconds, and the share that is done. Returns its upper edge, and
+/// whether Cancel was pressed.
+pub fn export_progress(
+    ctx: &Context,
+    at: Pos2,
+    (name, secs, share): (&str, f64, f64),
+    language: Language,
+) -> (f32, bool) {
     let look = Look::of(ctx);
-    floating(ctx, at, |ui| {
+    floating(ctx, "export", at, |ui| {
         let text = say!(language, "Writing {name}", "Gravando {name}");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
         let done = fraction(share);
@@ -60,7 +71,8 @@ pub fn export_progress(ctx: &Context, at: Pos2, (name, secs, share): (&str, f64,
         let bar = ProgressBar::new(share as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
         ui.add(bar);
         ui.label(RichText::new(done).font(theme::regular(theme::BODY)).color(look.quiet));
-        button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked()
+        let is_cancelled = button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked();
+        (ui.max_rect().top() - GRID, is_cancelled)
     })
 }
 
@@ -80,10 +92,10 @@ fn time_left(secs: f64, share: f64, language: Language) -> Option<String> {
 
 /// Shows content in a frame over all panels, with its lower right corner at `at`. It floats so that its appearance
 /// moves no widget under the pointer.
-fn floating<T>(ctx: &Context, at: Pos2, content: impl FnOnce(&mut Ui) -> T) -> T {
+fn floating<T>(ctx: &Context, id: &str, at: Pos2, content: impl FnOnce(&mut Ui) -> T) -> T {
     let look = Look::of(ctx);
     let frame = Frame::NONE.fill(look.raised).stroke(Stroke::new(1.0, look.hairline)).corner_radius(8.0);
-    let area = Area::new(Id::unique("notice")).order(Order::Foreground).pivot(Align2::RIGHT_BOTTOM).fixed_pos(at);
+    let area = Area::new(Id::unique(id)).order(Order::Foreground).pivot(Align2::RIGHT_BOTTOM).fixed_pos(at);
     let shown = area.show(ctx, |ui| {
         frame.inner_margin(egui::vec2(1.5 * GRID, GRID)).show(ui, |ui| ui.horizontal(content).inner).inner
     });

@@ -99,8 +99,6 @@ impl Session {
         let source = ExportSource { log: self.stage.log.clone(), frame: has_picture.then(|| self.stage.frame.clone()) };
         let (job, owner) = (self.jobs.number(), CancelOnDrop::default());
         let cancel = owner.token();
-        // An older notice would hide the progress.
-        self.notice = None;
         self.export_job = Some(ExportJob { job, name, started: self.clock, share: 0.0, _cancel: owner });
         let failed = move |why| JobResult::Exported(job, Err(why));
         self.jobs.start_many(language, "export", failed, move |send| {

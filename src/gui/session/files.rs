@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::settings::Settings;
-use super::Notice;
 use super::job_result::{FileChange, Prepared, Recorded};
 use super::opening::{Opening, unreadable_scene};
 use super::run_source::RunSource;
 use super::stage::{Phase, Stage};
 use super::{Loading, Session};
+use super::{Notice, NoticeCause, NoticeKind};
 use crate::driver::Retrace;
 use crate::language::say;
 use crate::output::is_same_file;
@@ -26,7 +26,7 @@ impl Session {
             Opening::Run(log) => log.header.scene.clone(),
             Opening::Lesson(lesson) => lesson.name.clone(),
         };
-        self.load(name, move || Ok(opening));
+        self.load(name, false, move || Ok(opening));
     }
 
     /// Reads a file or a built-in scene and shows it. Until then, and if that fails, the present run stays.
@@ -36,19 +36,19 @@ impl Session {
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
         if let Some(log) = self.log_path.as_deref().filter(|log| is_same_file(log, &path)) {
             let log = log.display();
-            return self.trouble(say!(
+            return self.trouble_with_file(say!(
                 language,
                 "Not opened: the option --log will overwrite {log}. Open another file",
                 "Não aberto: a opção --log vai sobrescrever {log}. Abra outro arquivo"
             ));
         }
         self.camera_move = None;
-        self.load(name, move || Opening::read(path));
+        self.load(name, true, move || Opening::read(path));
     }
 
     /// Reads the file of the scene again.
     pub fn reload(&mut self) {
-        self.notice = None;
+        self.notices.end(NoticeCause::File);
         if !self.is_recorded()
             && let Some(path) = self.opened().and_then(|opened| opened.path.clone())
         {
@@ -185,11 +185,16 @@ impl Session {
         }
     }
 
-    /// Starts the job that reads and compiles with `read`.
-    fn load(&mut self, name: String, read: impl FnOnce() -> Result<Opening, String> + Send + 'static) {
+    /// Starts the job that reads with `read` and compiles.
+    fn load(
+        &mut self,
+        name: String,
+        reads_file: bool,
+        read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
+    ) {
         let language = self.language;
         let job = self.jobs.prepare(read, &self.settings, language);
-        self.loading = Some(Loading { job, name, started: self.clock });
+        self.loading = Some(Loading { job, name, reads_file, started: self.clock });
     }
 
     /// Starts a run of a compiled scene.
@@ -219,17 +224,20 @@ impl Session {
         if self.stage.phase == Phase::Preparing {
             self.open("ten-objects");
         }
-        self.trouble(say!(language, "Not opened. {why}", "Não aberto. {why}"));
+        self.trouble_with_file(say!(language, "Not opened. {why}", "Não aberto. {why}"));
+    }
+
+    fn trouble_with_file(&mut self, text: String) {
+        self.notices.add(Notice::new(text, NoticeKind::Trouble, NoticeCause::File, self.clock));
     }
 
     /// Shows the notice that the open file has changed or was deleted.
     pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {
         let language = self.language;
         let name = file_name(path);
-        self.notice = Some(match change {
+        let (text, kind) = match change {
             FileChange::Written => {
-                let text = say!(language, "{name} has changed on disk", "{name} mudou no disco");
-                Notice::changed(text, self.clock)
+                (say!(language, "{name} has changed on disk", "{name} mudou no disco"), NoticeKind::Changed)
             }
             FileChange::Gone => {
                 let text = say!(
@@ -237,9 +245,12 @@ impl Session {
                     "{name} was deleted or moved; the open scene stays as it is",
                     "{name} foi apagado ou movido; a cena aberta fica como está"
                 );
-                Notice::trouble(text, self.clock)
+                (text, NoticeKind::Trouble)
             }
-        });
+        };
+        // What was said of the file before is no longer true.
+        self.notices.end(NoticeCause::File);
+        self.notices.add(Notice::new(text, kind, NoticeCause::File, self.clock));
     }
 
     /// Returns the files that were opened last, the latest first.

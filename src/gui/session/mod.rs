@@ -47,7 +47,8 @@ pub use job_result::{
 };
 use jobs::Jobs;
 use moving::CameraMove;
-pub use notice::{Notice, NoticeKind};
+use notice::Notices;
+pub use notice::{Notice, NoticeCause, NoticeKind};
 use run_source::RunSource;
 pub use stage::{Phase, Stage};
 pub use teaching::PreparingLesson;
@@ -74,7 +75,7 @@ pub struct Session {
     runs_begun: usize,
     /// Number of measurements that have not ended, cancelled ones included.
     measurements: usize,
-    notice: Option<Notice>,
+    notices: Notices,
     export_job: Option<ExportJob>,
     /// By job: the name of the file that is being saved.
     saving: BTreeMap<u64, String>,
@@ -96,6 +97,8 @@ pub struct Session {
 struct Loading {
     job: u64,
     name: String,
+    /// Whether it is read from a file now.
+    reads_file: bool,
     /// egui's clock at the start, in seconds.
     started: f64,
 }
@@ -119,7 +122,7 @@ impl Session {
             ending: Vec::new(),
             runs_begun: 0,
             measurements: 0,
-            notice: None,
+            notices: Notices::default(),
             export_job: None,
             saving: BTreeMap::new(),
             log_path,
@@ -162,14 +165,15 @@ impl Session {
             self.write_log();
         }
         self.ending.retain(|source| !source.has_ended());
-        if self.notice.as_ref().and_then(|notice| notice.remains(clock)) == Some(0.0) {
-            self.notice = None;
-        }
+        self.notices.expire(clock);
         let mut others = Vec::new();
         for result in self.jobs.results() {
             match result {
                 JobResult::Ready(job, ready) if self.loading.as_ref().is_some_and(|loading| loading.job == job) => {
-                    self.loading = None;
+                    let reads_file = self.loading.take().is_some_and(|loading| loading.reads_file);
+                    if reads_file && ready.is_ok() {
+                        self.notices.end(NoticeCause::File);
+                    }
                     match ready {
                         Ok(Ready::Scene(prepared)) => self.show_scene(prepared),
                         Ok(Ready::Run(recorded)) => self.open_recorded(recorded),
@@ -337,29 +341,34 @@ impl Session {
         self.loading.as_ref().map(|loading| (&*loading.name, self.clock - loading.started))
     }
 
-    /// Returns the present notice.
+    /// Returns the notice to be read now.
     pub fn notice(&self) -> Option<&Notice> {
-        self.notice.as_ref()
+        self.notices.shown()
     }
 
-    /// Closes the notice.
+    /// Returns the number of notices that wait behind it.
+    pub fn notices_waiting(&self) -> usize {
+        self.notices.waiting()
+    }
+
+    /// Closes the shown notice.
     pub fn close_notice(&mut self) {
-        self.notice = None;
+        self.notices.close();
     }
 
-    /// Closes the notice if it is about the present run only.
-    pub fn end_notice(&mut self) {
-        self.notice.take_if(|notice| notice.is_of_the_run());
+    /// Closes the notices about the present run.
+    pub fn end_notices(&mut self) {
+        self.notices.end(NoticeCause::Run);
     }
 
     /// Shows a notice that disappears by itself.
     pub fn note(&mut self, text: impl Into<String>) {
-        self.notice = Some(Notice::note(text, self.clock));
+        self.notices.add(Notice::new(text, NoticeKind::Note, NoticeCause::Run, self.clock));
     }
 
-    /// Shows an error, which stays until it is closed.
+    /// Shows an error about the present run, which stays until it is closed.
     pub fn trouble(&mut self, text: impl Into<String>) {
-        self.notice = Some(Notice::trouble(text, self.clock));
+        self.notices.add(Notice::new(text, NoticeKind::Trouble, NoticeCause::Run, self.clock));
     }
 
     /// Returns how many runs have begun.

@@ -95,7 +95,7 @@ impl LessonProgress {
         if self.question().is_some_and(|(question, answer)| answer.is_none() && index < question.answers.len()) {
             self.answers[self.step] = Some(index);
             // The notice may say that an answer is missing.
-            session.end_notice();
+            session.end_notices();
             self.play(session);
         }
     }
