@@ -224,6 +224,34 @@ fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
 }
 
 #[test]
+fn second_export_waits_for_the_first() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 20);
+    press(&mut window, "Save…");
+    choose_kind(&mut window, "any size");
+    press(&mut window, "4K");
+    type_number(&mut window, "Samples a pixel", "16");
+    let huge = directory.path().join("huge.png");
+    window.get_by_label(FIELD).click();
+    window.run_steps(2);
+    type_path(&mut window, FIELD, &huge);
+    press(&mut window, "Save");
+    choose_kind(&mut window, "timeline");
+    let timeline = directory.path().join("timeline.svg");
+    window.get_by_label(FIELD).click();
+    window.run_steps(2);
+    type_path(&mut window, FIELD, &timeline);
+    press(&mut window, "Save");
+    until(&mut window, "progress", |window| window.query_by_label_contains("then 1 more").is_some());
+    let waiting: Vec<String> = session(&window).files_in_progress().into_iter().map(|(name, _)| name).collect();
+    assert_eq!(waiting, ["huge.png", "timeline.svg"]);
+    press(&mut window, "Cancel");
+    until(&mut window, "notice", |window| notice(window).contains("timeline.svg"));
+    assert!(timeline.is_file() && !huge.exists());
+}
+
+#[test]
 fn region_is_saved_without_its_background() {
     const REGION: &str = "Region: column, row, width, height; empty for the whole picture";
     let directory = tempfile::tempdir().expect("a temporary directory");

@@ -11,7 +11,7 @@ impl App {
     pub(super) fn notices(&mut self, ctx: &Context) {
         let language = self.session.language();
         let mut at = self.notice_corner(ctx);
-        if let Some(progress) = self.session.export_progress().filter(|(_, secs, _)| *secs > 0.4) {
+        if let Some(progress) = self.session.export_progress().filter(|progress| progress.elapsed_s > 0.4) {
             let (top, is_cancelled) = notice::export_progress(ctx, at, progress, language);
             if is_cancelled {
                 self.session.cancel_export();

@@ -98,15 +98,15 @@ impl App {
     }
 }
 
-fn question(ctx: &Context, files: &[(&str, Option<f64>)], language: Language) -> Option<QuitAnswer> {
+fn question(ctx: &Context, files: &[(String, Option<f64>)], language: Language) -> Option<QuitAnswer> {
     let look = Look::of(ctx);
     let modal = Modal::new(Id::unique("quit")).frame(popup_frame(ctx).inner_margin(2.0 * GRID));
     let shown = modal.show(ctx, |ui| {
         ui.set_width(52.0 * GRID);
-        for &(name, share) in files {
+        for (name, share) in files {
             let text = say!(language, "{name} is still being written", "{name} ainda está sendo gravado");
             ui.add(Label::new(RichText::new(text).font(theme::strong(theme::BODY)).color(look.text)).wrap());
-            if let Some(share) = share {
+            if let &Some(share) = share {
                 ui.horizontal(|ui| {
                     ui.visuals_mut().extreme_bg_color = look.hairline;
                     let bar = ProgressBar::new(share as f32).desired_width(40.0 * GRID).desired_height(GRID);

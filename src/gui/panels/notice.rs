@@ -2,7 +2,7 @@
 
 use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, Pos2, ProgressBar, RichText, Stroke, Ui};
 
-use crate::gui::session::{Notice, NoticeKind};
+use crate::gui::session::{ExportProgress, Notice, NoticeKind};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
@@ -53,24 +53,25 @@ pub fn loading(ctx: &Context, at: Pos2, name: &str, language: Language) {
     });
 }
 
-/// Shows the progress of an export: file name, elapsed seconds, and the share that is done. Returns its upper edge, and
-/// whether Cancel was pressed.
-pub fn export_progress(
-    ctx: &Context,
-    at: Pos2,
-    (name, secs, share): (&str, f64, f64),
-    language: Language,
-) -> (f32, bool) {
+/// Shows the progress of an export. Returns its upper edge, and whether Cancel was pressed.
+pub fn export_progress(ctx: &Context, at: Pos2, progress: ExportProgress<'_>, language: Language) -> (f32, bool) {
+    let ExportProgress { name, elapsed_s, share, waiting } = progress;
     let look = Look::of(ctx);
     floating(ctx, "export", at, |ui| {
         let text = say!(language, "Writing {name}", "Gravando {name}");
         ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
         let done = fraction(share);
-        let done = time_left(secs, share, language).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
+        let done =
+            time_left(elapsed_s, share, language).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
         ui.visuals_mut().extreme_bg_color = look.hairline;
         let bar = ProgressBar::new(share as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
         ui.add(bar);
-        ui.label(RichText::new(done).font(theme::regular(theme::BODY)).color(look.quiet));
+        let others = if waiting > 0 {
+            say!(language, " · then {waiting} more", " · depois mais {waiting}")
+        } else {
+            String::new()
+        };
+        ui.label(RichText::new(done + &others).font(theme::regular(theme::BODY)).color(look.quiet));
         let is_cancelled = button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked();
         (ui.max_rect().top() - GRID, is_cancelled)
     })

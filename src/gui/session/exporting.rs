@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::Session;
+use super::files::file_name;
 use super::job_result::JobResult;
 use super::jobs::save_message;
 use crate::cancel::{CancelOnDrop, CancelToken};
@@ -64,8 +65,29 @@ pub(super) struct ExportJob {
     _cancel: CancelOnDrop,
 }
 
+/// An export that waits until the one before it is written.
+pub(super) struct PendingExport {
+    path: PathBuf,
+    export: Export,
+    /// The run as it was when the export was asked for.
+    source: ExportSource,
+}
+
 /// Error of a cancelled job. The session ignores its result, so nobody reads it.
 const CANCELLED: &str = "cancelled";
+
+/// Progress of an export.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExportProgress<'a> {
+    /// Name of the file.
+    pub name: &'a str,
+    /// Seconds since the start.
+    pub elapsed_s: f64,
+    /// Share that is done, 0 to 1.
+    pub share: f64,
+    /// Number of exports that wait.
+    pub waiting: usize,
+}
 
 /// Input of the job.
 struct ExportSource {
@@ -83,20 +105,23 @@ struct ExportContext<'a> {
 }
 
 impl Session {
-    /// Starts the job that makes the file `path`.
+    /// Makes the file `path` of the run as it is now, as soon as the exports before it are written.
     pub fn export(&mut self, path: PathBuf, export: Export) {
-        let language = self.language;
-        if let Some(ExportJob { name, .. }) = &self.export_job {
-            return self.trouble(say!(
-                language,
-                "{name} is still being written. Wait, or cancel it first",
-                "{name} ainda está sendo gravado. Espere, ou cancele antes"
-            ));
-        }
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         // The picture of a recorded run may still be being traced.
         let has_picture = !self.is_recorded() || self.stage.source.has_ended();
         let source = ExportSource { log: self.stage.log.clone(), frame: has_picture.then(|| self.stage.frame.clone()) };
+        self.exports_waiting.push_back(PendingExport { path, export, source });
+        self.start_next_export();
+    }
+
+    /// Starts the job of the next export, unless one is in progress.
+    fn start_next_export(&mut self) {
+        if self.export_job.is_some() {
+            return;
+        }
+        let Some(PendingExport { path, export, source }) = self.exports_waiting.pop_front() else { return };
+        let language = self.language;
+        let name = file_name(&path);
         let (job, owner) = (self.jobs.number(), CancelOnDrop::default());
         let cancel = owner.token();
         self.export_job = Some(ExportJob { job, name, started: self.clock, share: 0.0, _cancel: owner });
@@ -117,16 +142,27 @@ impl Session {
         });
     }
 
-    /// Returns the name of the file that is being exported, the elapsed seconds, and the share that is done (0 to 1).
-    pub fn export_progress(&self) -> Option<(&str, f64, f64)> {
-        self.export_job.as_ref().map(|export| (&*export.name, self.clock - export.started, export.share))
+    /// Returns the progress of the file that is being exported.
+    pub fn export_progress(&self) -> Option<ExportProgress<'_>> {
+        self.export_job.as_ref().map(|export| ExportProgress {
+            name: &export.name,
+            elapsed_s: self.clock - export.started,
+            share: export.share,
+            waiting: self.exports_waiting.len(),
+        })
     }
 
-    /// Cancels the export; no part of the file stays.
+    /// Returns the names of the files whose exports wait.
+    pub(super) fn exports_waiting(&self) -> impl Iterator<Item = String> {
+        self.exports_waiting.iter().map(|export| file_name(&export.path))
+    }
+
+    /// Cancels the export in progress, of which no part of the file stays, and starts the next.
     pub fn cancel_export(&mut self) {
         let language = self.language;
         if let Some(ExportJob { name, .. }) = self.export_job.take() {
             self.note(say!(language, "Cancelled: {name} was not saved", "Cancelado: {name} não foi salvo"));
+            self.start_next_export();
         }
     }
 
@@ -143,6 +179,7 @@ impl Session {
                 Ok(message) => self.note(message),
                 Err(why) => self.trouble(why),
             }
+            self.start_next_export();
         }
     }
 }

@@ -110,11 +110,12 @@ impl Session {
         self.save_log(path);
     }
 
-    /// Returns the names of the files that are being written. For the export in progress it also returns the share that
-    /// is done, 0 to 1.
-    pub fn files_in_progress(&self) -> Vec<(&str, Option<f64>)> {
-        let export = self.export_progress().map(|(name, _, share)| (name, Some(share)));
-        export.into_iter().chain(self.saving.values().map(|name| (&**name, None))).collect()
+    /// Returns the names of the files that are being written, or wait for that. For the export in progress it also
+    /// returns the share that is done, 0 to 1.
+    pub fn files_in_progress(&self) -> Vec<(String, Option<f64>)> {
+        let export = self.export_progress().map(|progress| (progress.name.to_owned(), Some(progress.share)));
+        let others = self.exports_waiting().chain(self.saving.values().cloned()).map(|name| (name, None));
+        export.into_iter().chain(others).collect()
     }
 
     /// Takes the result of saving a file.
@@ -273,6 +274,6 @@ impl Session {
 }
 
 /// Returns the name of a file as text.
-fn file_name(path: &Path) -> String {
+pub(super) fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

@@ -19,7 +19,7 @@ mod stage;
 mod teaching;
 mod timing;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -37,8 +37,8 @@ use crate::time::Time;
 use opening::Opening;
 
 pub use comparing::{ComparisonSubject, PictureSource, TracingProgress};
-use exporting::ExportJob;
-pub use exporting::{Export, PictureExport};
+pub use exporting::{Export, ExportProgress, PictureExport};
+use exporting::{ExportJob, PendingExport};
 use inspecting::Inspecting;
 use job_result::Ready;
 pub use job_result::{
@@ -77,6 +77,7 @@ pub struct Session {
     measurements: usize,
     notices: Notices,
     export_job: Option<ExportJob>,
+    exports_waiting: VecDeque<PendingExport>,
     /// By job: the name of the file that is being saved.
     saving: BTreeMap<u64, String>,
     /// File for the records of each run (`--log`).
@@ -124,6 +125,7 @@ impl Session {
             measurements: 0,
             notices: Notices::default(),
             export_job: None,
+            exports_waiting: VecDeque::new(),
             saving: BTreeMap::new(),
             log_path,
             recent: Vec::new(),
