@@ -70,6 +70,16 @@ fn click_shows_the_pixel_arrows_move_and_esc_closes() {
 }
 
 #[test]
+fn term_under_the_mouse_has_a_name() {
+    let mut window = open(SIZE);
+    click(&mut window, [0.5, 0.5]);
+    wait_for_pixel(&mut window);
+    let table = window.get_by_label("Terms of the equation").rect();
+    window.hover_at(table.left_top() + egui::vec2(20.0, 36.0));
+    until(&mut window, "a name", |window| window.query_by_label("Ka Ia: ambient").is_some());
+}
+
+#[test]
 fn arrows_stop_at_the_edge_of_the_picture_and_the_button_closes() {
     let mut window = open(SIZE);
     click(&mut window, [0.0005, 0.0005]);

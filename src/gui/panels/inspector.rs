@@ -196,7 +196,12 @@ fn ray(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language) 
     quiet(ui, &inspected.ray_sentences(language).join(" "));
     let terms = inspected.draw_terms(ui.available_width(), language);
     let name = word!(language, "Terms of the equation", "Termos da equação");
-    drawing(ui, name, &inspected.term_words(language), (&terms.marks, terms.height), inks);
+    let area = drawing(ui, name, &inspected.term_words(language), (&terms.marks, terms.height), inks);
+    // In a narrow panel only the formulas have room.
+    for (index, (heights, name)) in terms.rows.iter().enumerate() {
+        let row = area.with_min_y(area.top() + heights.start).with_max_y(area.top() + heights.end);
+        ui.interact(row, ui.scope_id().with(("term", index)), Sense::hover()).on_hover_text(name);
+    }
     ui.add_space(GRID);
     let spans = inspected.spans(ui.available_width(), MAX_SPAN_ROWS, language);
     let name = word!(language, "Spans along the ray", "Trechos ao longo do raio");

@@ -2,6 +2,8 @@
 //!
 //! Cp = Ka Ia + Kd Σ Il (N·L) + Ks Σ Il (S·R)ⁿ + Ks Is + Kt It (§3).
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::{Inspected, brightness, label, line, shown, swatch};
@@ -28,6 +30,8 @@ pub struct Term {
 pub struct Terms {
     /// Marks of the drawing.
     pub marks: Vec<Mark>,
+    /// The height at which each term begins and ends, and its formula with its name.
+    pub rows: Vec<(Range<f32>, String)>,
     /// Height of the drawing.
     pub height: f32,
 }
@@ -77,13 +81,14 @@ impl Inspected {
         let blue = width - PART_WIDTH;
         let places = [blue - 2.0 * column, blue - column, blue];
         let swatch_at = places[0] - column - SWATCH_WIDTH / 2.0 + 6.0;
-        let mut marks = Vec::new();
+        let (mut marks, mut rows) = (Vec::new(), Vec::new());
         let colours = word!(language, ["red", "green", "blue"], ["verm.", "verde", "azul"]);
         for (name, x) in colours.into_iter().zip(places).chain([(word!(language, "of pixel", "do pixel"), width)]) {
             marks.push(label([x, ROW_HEIGHT / 2.0], Anchor::Right, name, Hue::Quiet));
         }
         for (index, term) in terms.iter().enumerate() {
             let y = ROW_HEIGHT * (index as f32 + 1.5);
+            rows.push((y - ROW_HEIGHT / 2.0..y + ROW_HEIGHT / 2.0, format!("{}: {}", term.formula, term.meaning)));
             let is_sum = index + 1 == terms.len();
             let hue = if is_sum || term.colour != DVec3::ZERO { Hue::Text } else { Hue::Quiet };
             if is_sum {
@@ -102,7 +107,7 @@ impl Inspected {
             let part = term.part.map_or_else(|| "–".to_owned(), |part| fine_fraction(part, language));
             marks.push(label([width, y], Anchor::Right, part, hue));
         }
-        Terms { marks, height: ROW_HEIGHT * (terms.len() as f32 + 1.0) }
+        Terms { marks, rows, height: ROW_HEIGHT * (terms.len() as f32 + 1.0) }
     }
 }
 
