@@ -186,7 +186,8 @@ impl Session {
         }
     }
 
-    /// Starts the job that reads with `read` and compiles.
+    /// Starts the job that reads with `read` and compiles. If it `reads_file` for the user and succeeds, notices about
+    /// files end.
     fn load(
         &mut self,
         name: String,
@@ -223,7 +224,8 @@ impl Session {
         let language = self.language;
         self.camera_move = None;
         if self.stage.phase == Phase::Preparing {
-            self.open("ten-objects");
+            // The error is still to be read.
+            self.load("ten-objects".into(), false, || Opening::read("ten-objects"));
         }
         self.trouble_with_file(say!(language, "Not opened. {why}", "Não aberto. {why}"));
     }

@@ -98,7 +98,7 @@ pub struct Session {
 struct Loading {
     job: u64,
     name: String,
-    /// Whether it is read from a file now.
+    /// Whether the user has opened it, so that notices about files end.
     reads_file: bool,
     /// egui's clock at the start, in seconds.
     started: f64,
