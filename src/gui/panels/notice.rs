@@ -18,8 +18,8 @@ pub enum NoticeAction {
     Reload,
 }
 
-/// Shows a notice with its lower right corner at `at`, and how many others are `waiting` behind it. Returns the action of
-/// the pressed button.
+/// Shows a notice with its lower right corner at `at`, and how many others are `waiting` behind it. Returns the action
+/// of the pressed button.
 pub fn show(notice: &Notice, waiting: usize, ctx: &Context, at: Pos2, language: Language) -> Option<NoticeAction> {
     let look = Look::of(ctx);
     floating(ctx, "notice", at, |ui| {
