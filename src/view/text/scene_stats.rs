@@ -34,8 +34,7 @@ pub fn needs_lines(compiled: &SceneStats, levels: &[u64], language: Language) ->
     ];
     if compiled.unbounded > 0 {
         let solids = several(compiled.unbounded, solids);
-        let words =
-            say!(language, "{solids}: each ray is tested against them", "{solids}: cada raio é testado com eles");
+        let words = say!(language, "every ray is tested against {solids}", "todo raio é testado com {solids}");
         lines.push((word!(language, "Unbounded", "Sem limites"), words));
     }
     lines
@@ -190,9 +189,12 @@ mod tests {
             ),
             language,
         );
-        for line in
-            ["1 box along the axes", "Operations: 1 of 1", "Unbounded: 1 solid: each", "some mirror others; light"]
-        {
+        for line in [
+            "1 box along the axes",
+            "Operations: 1 of 1",
+            "Unbounded: every ray is tested against 1 solid",
+            "some mirror others; light",
+        ] {
             assert!(more.contains(line), "{line} is not in {more}");
         }
         assert!(more.contains(" levels; "), "{more}");
