@@ -223,6 +223,13 @@ fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
     assert!(!path.exists() && notice(&window).starts_with("Cancelled"));
 }
 
+/// Replaces the path in its field, which need not have the focus.
+fn retype_path(window: &mut Window, path: &Path) {
+    window.get_by_label(FIELD).click();
+    window.run_steps(2);
+    type_path(window, FIELD, path);
+}
+
 #[test]
 fn second_export_waits_for_the_first() {
     let directory = tempfile::tempdir().expect("a temporary directory");
@@ -233,15 +240,11 @@ fn second_export_waits_for_the_first() {
     press(&mut window, "4K");
     type_number(&mut window, "Samples a pixel", "16");
     let huge = directory.path().join("huge.png");
-    window.get_by_label(FIELD).click();
-    window.run_steps(2);
-    type_path(&mut window, FIELD, &huge);
+    retype_path(&mut window, &huge);
     press(&mut window, "Save");
     choose_kind(&mut window, "timeline");
     let timeline = directory.path().join("timeline.svg");
-    window.get_by_label(FIELD).click();
-    window.run_steps(2);
-    type_path(&mut window, FIELD, &timeline);
+    retype_path(&mut window, &timeline);
     press(&mut window, "Save");
     until(&mut window, "progress", |window| window.query_by_label_contains("then 1 more").is_some());
     let waiting: Vec<String> = session(&window).files_in_progress().into_iter().map(|(name, _)| name).collect();

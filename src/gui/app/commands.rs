@@ -14,7 +14,7 @@ impl App {
     /// Executes a command; an open page or lesson gets it first.
     pub(super) fn handle_command(&mut self, command: UserCommand, ctx: &Context) {
         let language = self.session.language();
-        // A key that is tried while the list of keys is open does what the list says.
+        // While the list of keys is open, any other key closes it and does what the list says.
         if self.help && !matches!(command, UserCommand::Help | UserCommand::Back | UserCommand::Quit) {
             self.help = false;
         }

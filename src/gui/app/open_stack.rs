@@ -39,7 +39,7 @@ pub enum Closable {
 }
 
 impl Closable {
-    /// All, in the order in which those are closed last that were opened in one frame.
+    /// All. Of those that were opened in one frame, Esc closes the later ones first.
     const ALL: [Self; 14] = [
         Self::Lesson,
         Self::Projector,
@@ -73,13 +73,15 @@ impl App {
         &self.open_stack.open
     }
 
-    /// Notes what was opened and closed in this frame, and whether the user types.
+    /// Records what was opened and closed in this frame, and whether the user types.
     pub(super) fn update_open_stack(&mut self, ctx: &Context) {
         let mut open = std::mem::take(&mut self.open_stack.open);
         open.retain(|&closable| self.is_open(closable));
-        let opened = Closable::ALL.into_iter().filter(|&closable| self.is_open(closable) && !open.contains(&closable));
-        let opened: Vec<_> = opened.collect();
-        open.extend(opened);
+        for closable in Closable::ALL {
+            if self.is_open(closable) && !open.contains(&closable) {
+                open.push(closable);
+            }
+        }
         self.open_stack = OpenStack { open, was_typing: ctx.text_edit_focused() };
     }
 

@@ -97,13 +97,9 @@ impl Jobs {
         let cancel = owner.token();
         self.start_many(language, "thumbnails", JobResult::Failed, move |send| {
             for scene in scenes {
-                let picture = match Opened::new(&scene) {
-                    Ok(opened) => match thumbnail(&opened.scene, &cancel) {
-                        Some(picture) => Ok(picture),
-                        None => return,
-                    },
-                    Err(error) => Err(error.to_string()),
-                };
+                let opened = Opened::new(&scene).map_err(|error| error.to_string());
+                let picture = opened.map(|opened| thumbnail(&opened.scene, &cancel)).transpose();
+                let Some(picture) = picture else { return };
                 send(JobResult::Thumbnail(scene, picture));
             }
         });

@@ -70,7 +70,7 @@ impl Session {
         }
     }
 
-    /// Follows a live run again, so that the user sees the effect of a change.
+    /// Shows the present of a live run, or the end of a finished one, so that the user sees the effect of a change.
     pub(super) fn return_to_present(&mut self) {
         let language = self.language;
         if self.stage.phase == Phase::Running && !self.stage.is_live() {
