@@ -42,6 +42,7 @@ pub(super) fn merge(operation: Operation, stack: &mut Vec<Crossing>, first: usiz
     }
 }
 
+/// Does the same for the operation that `combine` computes.
 #[inline(always)]
 fn merge_by(
     combine: impl Fn(bool, bool) -> bool,

@@ -44,7 +44,7 @@ impl Default for Pending {
 impl Bvh {
     /// Puts the bounded solids into a hierarchy.
     pub fn new(unbounded: Vec<RootId>, mut bounded: Vec<(RootId, Aabb)>) -> Self {
-        let mut bvh = Self::without_bounds(unbounded);
+        let mut bvh = Self::of_unbounded(unbounded);
         if !bounded.is_empty() {
             bvh.top = Some(bvh.build(&mut bounded, 0));
         }
@@ -53,14 +53,14 @@ impl Bvh {
 
     /// All bounded solids in one box, without a hierarchy.
     pub fn flat(unbounded: Vec<RootId>, bounded: Vec<(RootId, Aabb)>) -> Self {
-        let mut bvh = Self::without_bounds(unbounded);
+        let mut bvh = Self::of_unbounded(unbounded);
         if !bounded.is_empty() {
             bvh.top = Some(bvh.add_leaf(&bounded));
         }
         bvh
     }
 
-    fn without_bounds(roots: Vec<RootId>) -> Self {
+    fn of_unbounded(roots: Vec<RootId>) -> Self {
         Self { unbounded: roots.len() as u32, roots, ..Self::default() }
     }
 

@@ -12,6 +12,7 @@ use crate::scene::{Light, Material, Scene, ior, media_of};
 #[derive(Debug)]
 pub(super) struct CompiledScene {
     pub tree: Tree,
+    /// The roots, with and without bounds.
     pub bvh: Bvh,
     pub background: DVec3,
     pub lights: Vec<Light>,
