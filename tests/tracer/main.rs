@@ -1,6 +1,5 @@
 //! The tracer: boolean operations on rays, the article's equation, the built-in scenes, and POV-Ray as a judge.
 
-mod complaints;
 mod csg;
 mod csg_oracle;
 mod equation;
@@ -9,7 +8,6 @@ mod inspector;
 mod media;
 mod metamorphic;
 mod parts;
-mod plain;
 mod povray;
 mod povray_glass;
 mod povray_scenes;

@@ -9,12 +9,14 @@ mod graze;
 mod lost;
 mod normals;
 mod placed_primitive;
+mod plain;
 mod protocol;
 mod refraction;
 mod report;
 mod scaled;
 mod starts;
 mod torus;
+mod wrong;
 
 use fastrand::Rng;
 use serde::Serialize;
@@ -93,7 +95,7 @@ fn cases() -> Vec<StabilityCase> {
 /// A [`StudyError`], if a table cannot be made.
 pub fn stability(tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     let cases = cases();
-    let mut progress = Progress::new(cases.len(), tell);
+    let mut progress = Progress::new(cases.len() + 2, tell);
     let mut study = Study::new("stability");
     let (mut rows, mut ends) = (Vec::new(), Vec::new());
     for case in &cases {
@@ -108,11 +110,16 @@ pub fn stability(tell: ProgressSink<'_>) -> Result<Study, StudyError> {
     for (case, rows) in &found {
         study.add_chart(case.name, &report::chart(case, rows).marks(crate::view::CHART_SIZE, Language::English));
     }
+    progress.next("Lost rays");
     let lost = lost::rows()?;
     study.add_table("lost", &lost)?;
+    progress.next("Wrong pixels");
+    let wrong = wrong::rows()?;
+    study.add_table("wrong", &wrong)?;
     let mut report = report::report(&found);
     lost::report(&mut report, &lost);
-    report.line("\nAll numbers are in `stability.csv` and `stability-lost.csv`.");
+    wrong::report(&mut report, &wrong);
+    report.line("\nAll numbers are in `stability.csv`, `stability-lost.csv` and `stability-wrong.csv`.");
     study.add_report(report);
     Ok(study)
 }

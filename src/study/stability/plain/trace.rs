@@ -3,8 +3,8 @@
 
 use std::cell::Cell;
 
-use anel::csg::Solid;
-use anel::scene::{Light, Material, Scene, ior, media_of};
+use crate::csg::Solid;
+use crate::scene::{Light, Material, Scene, ior, media_of};
 use glam::DVec3;
 
 use super::number::Number;

@@ -1,7 +1,7 @@
 //! Solids without any cleverness: the surfaces that bound a primitive, where a line meets them, and whether a point is
 //! inside, by the inequalities of their definitions.
 
-use anel::csg::{MaterialTag, Primitive, Solid};
+use crate::csg::{MaterialTag, Primitive, Solid};
 
 use super::number::Number;
 use super::vector::{ToLocal, Vector};

@@ -3,8 +3,8 @@
 
 use fastrand::Rng;
 
-/// A scene in the scene language.
-pub fn scene(seed: u64) -> String {
+/// Writes a scene in the scene language.
+pub(in super::super) fn random_scene(seed: u64) -> String {
     let rng = &mut Rng::with_seed(seed);
     // A whole scene in metres or in micrometres; powers of ten round.
     let unit = pick(rng, &[1.0, 1.0, 1.0, 1e-5, 1e-3, 1e3, 1e7]);
