@@ -3,10 +3,10 @@
 use std::time::Duration;
 
 use super::Sim;
-use crate::balance::{NodeId, Remedy, Rules, Strategy};
+use crate::balance::{NodeId, Party, Remedy, Rules, Strategy};
 use crate::picture::{Division, Size};
 use crate::record::RecordKind;
-use crate::runlog::{Driver, Header, RunLog};
+use crate::runlog::{Driver, Header, OwnLink, RunLog};
 use crate::scenario::{Command, Script};
 use crate::time::Time;
 
@@ -38,6 +38,8 @@ pub enum Change {
     Atom(u32),
     /// Another latency of all nodes that have none of their own.
     Latency(Duration),
+    /// A node's own latency from the start.
+    OwnLatency(NodeId, Duration),
     /// Another time that the parent is busy with each message.
     Handling(Duration),
 }
@@ -104,6 +106,10 @@ impl Trial {
             Change::Equal => header.speeds.fill(1.0),
             Change::Atom(pixels) => header.division = Division::new(header.size.pixels(), pixels.max(1)),
             Change::Latency(latency) => header.link.latency = latency,
+            Change::OwnLatency(node, latency) => {
+                let party = Party::Node(node);
+                header.link.set_own(party, OwnLink { latency: Some(latency), ..header.link.own(party) });
+            }
             Change::Handling(handling) => header.handling = handling,
         }
         if sets_part {
@@ -213,6 +219,10 @@ mod tests {
         assert!(busy.header.rules.beat > trial.header.rules.beat, "a busy parent gets fewer beats");
         let later = trial.with(Change::Latency(Duration::from_millis(300)));
         assert!(makespan(&later) > makespan(&trial));
+        let far = trial.with(Change::OwnLatency(3, Duration::from_millis(300)));
+        let latencies = [0, 3].map(|node| far.header.link.latency_of(Party::Node(node)));
+        assert_eq!(latencies, [Duration::ZERO, Duration::from_millis(300)]);
+        assert_eq!(Trial { header: Header { link: trial.header.link.clone(), ..far.header }, ..far }, trial);
     }
 
     #[test]

@@ -178,6 +178,7 @@ fn growth_of(trial: &Trial, costs: &PixelCosts) -> Growth {
         let points = (1..=MAX_MACHINES).filter_map(run).collect();
         (strategy, points)
     };
-    let curves = [Strategy::Static, Strategy::Farm, Strategy::Ring, Strategy::Adaptive].map(points_of).into();
+    let strategies = [Strategy::Static, Strategy::Farm, Strategy::FarmLeases, Strategy::Ring, Strategy::Adaptive];
+    let curves = strategies.map(points_of).into();
     Growth { curves, alone, slow }
 }

@@ -35,6 +35,14 @@ pub fn change_words(change: &Change, language: Language) -> String {
             let latency = duration(latency, language);
             say!(language, "{latency} a message", "{latency} por mensagem")
         }
+        Change::OwnLatency(node, latency) if latency.is_zero() => {
+            let name = node_name(node);
+            say!(language, "messages of {name} take no time", "mensagens de {name} instantâneas")
+        }
+        Change::OwnLatency(node, latency) => {
+            let (name, latency) = (node_name(node), duration(latency, language));
+            say!(language, "{latency} a message of {name}", "{latency} por mensagem de {name}")
+        }
         Change::Handling(handling) if handling.is_zero() => {
             word!(language, "the parent is never busy", "o pai nunca está ocupado").to_owned()
         }
@@ -60,7 +68,8 @@ pub fn trial_name(strategy: &Strategy, changes: &[Change], language: Language) -
 /// Whether the later change overrides the earlier one.
 fn overrides(earlier: &Change, later: &Change) -> bool {
     match (earlier, later) {
-        (Change::Speed(one, _), Change::Speed(other, _)) => one == other,
+        (Change::Speed(one, _), Change::Speed(other, _))
+        | (Change::OwnLatency(one, _), Change::OwnLatency(other, _)) => one == other,
         (Change::Speed(..), Change::Equal) => true,
         (Change::Without(one), Change::Without(other)) => one == other,
         _ => std::mem::discriminant(earlier) == std::mem::discriminant(later) && !matches!(later, Change::SpeedAt(..)),
@@ -95,6 +104,8 @@ mod tests {
             "Ring, all at 100 %"
         );
         assert_eq!(trial_name(&Strategy::Ring, &[], language), "Ring");
+        let far = [4, 3, 4].map(|node| Change::OwnLatency(node, Duration::from_millis(40 * u64::from(node))));
+        assert_eq!(trial_name(&Strategy::Ring, &far, language), "Ring, 120 ms a message of 4, 160 ms a message of 5");
         let without = [Remedy::Wake, Remedy::Copies, Remedy::Wake].map(Change::Without);
         assert_eq!(
             trial_name(&Strategy::Adaptive, &without, language),

@@ -6,7 +6,7 @@ use egui::{
     Popup, PopupCloseBehavior, Response, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
 };
 
-use crate::balance::{NodeId, Remedy, Strategy};
+use crate::balance::{NodeId, Party, Remedy, Strategy};
 use crate::gui::settings::Settings;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
@@ -96,9 +96,17 @@ pub fn changes(
             let later = values(&speeds, trial.speed_at(now, node), |speed| Change::SpeedAt(now, node, speed));
             chosen = chosen.or(row(ui, &say!(language, "from {at} on", "a partir de {at}"), later, look, language));
         }
+        let initial = trial.header.link.latency_of(Party::Node(node));
+        let latencies =
+            values(&LATENCIES_MS.map(Duration::from_millis), initial, |time| Change::OwnLatency(node, time));
+        chosen =
+            chosen.or(row(ui, word!(language, "its messages take", "suas mensagens levam"), latencies, look, language));
         chosen
     })
 }
+
+/// The latencies offered, of all machines or of one, in milliseconds.
+const LATENCIES_MS: [u64; 5] = [0, 5, 40, 200, 1000];
 
 /// A change, and whether the run has this value already.
 type Choice = (Change, bool);
@@ -120,7 +128,7 @@ fn possible_changes(trial: &Trial, language: Language) -> Vec<(&'static str, Vec
     let atoms: Vec<_> = atoms.filter(|pixels| header.size.pixels() / pixels <= Settings::MAX_ATOMS).collect();
     let atoms = values(&atoms, header.division.atom_pixels(), Change::Atom);
     let ms = Duration::from_millis;
-    let latencies = values(&[0, 5, 40, 200, 1000].map(ms), header.link.latency, Change::Latency);
+    let latencies = values(&LATENCIES_MS.map(ms), header.link.latency, Change::Latency);
     let handlings = values(&[0, 2, 20, 100].map(ms), header.handling, Change::Handling);
     vec![
         (word!(language, "Strategy", "Estratégia"), strategies.into()),
@@ -189,8 +197,10 @@ fn short_text(change: &Change, language: Language) -> String {
         Change::Nodes(nodes) => nodes.to_string(),
         Change::Speed(_, speed) | Change::SpeedAt(_, _, speed) => fraction(speed),
         Change::Atom(pixels) => count(pixels),
-        Change::Latency(time) | Change::Handling(time) if time.is_zero() => word!(language, "0 ms", "0 ms").to_owned(),
-        Change::Latency(time) | Change::Handling(time) => duration(time, language),
+        Change::Latency(time) | Change::OwnLatency(_, time) | Change::Handling(time) if time.is_zero() => {
+            word!(language, "0 ms", "0 ms").to_owned()
+        }
+        Change::Latency(time) | Change::OwnLatency(_, time) | Change::Handling(time) => duration(time, language),
         Change::Without(remedy) => remedy_name(remedy, language).to_owned(),
         Change::Strategy(_) | Change::Equal => change_words(change, language),
     }
