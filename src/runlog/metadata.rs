@@ -31,10 +31,17 @@ impl Metadata {
         *self == Self::default()
     }
 
-    /// Returns the texts that are not empty.
-    pub fn lines(&self) -> impl Iterator<Item = &str> {
-        [&self.title, &self.memo, &self.machine].into_iter().map(String::as_str).filter(|line| !line.is_empty())
+    /// Returns the lines of all texts.
+    pub fn lines(&self) -> impl Iterator<Item = String> {
+        [&self.title, &self.memo, &self.machine].into_iter().flat_map(|text| text_lines(text))
     }
+}
+
+/// Splits a title or a memo into lines: at line breaks, and at `\n`, as a line break is typed on the command line.
+pub fn text_lines(text: &str) -> impl Iterator<Item = String> {
+    let text = text.replace("\\n", "\n");
+    let lines: Vec<_> = text.lines().map(|line| line.trim().to_owned()).filter(|line| !line.is_empty()).collect();
+    lines.into_iter()
 }
 
 /// Returns the name of the processor in the text of `/proc/cpuinfo`.
@@ -52,6 +59,11 @@ fn words(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn memo_breaks_at_real_and_typed_line_breaks() {
+        assert_eq!(text_lines(" one\\ntwo\n\n three ").collect::<Vec<_>>(), ["one", "two", "three"]);
+    }
 
     #[test]
     fn processor_name_is_read_from_cpuinfo() {

@@ -19,7 +19,7 @@ pub use header::{Driver, Header};
 pub use link_settings::{LinkSettings, OwnLink};
 pub use log::RunLog;
 pub use messages::MessageCounts;
-pub use metadata::Metadata;
+pub use metadata::{Metadata, text_lines};
 pub use metrics::Metrics;
 pub use results_in_flight::ResultsInFlight;
 pub use validate::{InvalidHeader, InvalidRecord};

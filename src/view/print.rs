@@ -18,7 +18,7 @@ use super::timeline::legend::timeline_legend;
 use super::timeline::time_window::TimeWindow;
 use super::timeline::{axis, timeline};
 use crate::language::Language;
-use crate::runlog::RunLog;
+use crate::runlog::{RunLog, text_lines};
 use crate::sentence::shown;
 use crate::time::Time;
 
@@ -193,13 +193,6 @@ fn draw_legend(sentences: &[&str], [x, y]: Point, room: f32, marks: &mut Vec<Mar
         marks.push(label([x, y + LINE_STEP * i as f32], Anchor::Left, line, SIZE, Hue::Quiet));
     }
     y + LINE_STEP * last as f32
-}
-
-/// Splits a text into lines: at line breaks, and at `\n`, as a line break is typed on the command line.
-fn text_lines(text: &str) -> impl Iterator<Item = String> {
-    let text = text.replace("\\n", "\n");
-    let lines: Vec<_> = text.lines().map(|line| line.trim().to_owned()).filter(|line| !line.is_empty()).collect();
-    lines.into_iter()
 }
 
 /// Draws the title of a run, its header in words, and its memo; returns the y below them.

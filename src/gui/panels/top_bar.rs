@@ -83,7 +83,7 @@ fn hint(session: &Session) -> String {
         "Open a scene, a lesson or a recorded run (O)",
         "Abrir uma cena, lição ou execução gravada (O)"
     );
-    let first = std::iter::once(open);
+    let first = std::iter::once(open.to_owned());
     first.chain(session.header().caption.lines()).collect::<Vec<_>>().join("\n")
 }
 

@@ -13,7 +13,7 @@ use super::{Notice, NoticeCause, NoticeKind};
 use crate::driver::Retrace;
 use crate::language::say;
 use crate::output::is_same_file;
-use crate::runlog::RunLog;
+use crate::runlog::{RunLog, text_lines};
 use crate::scene::Opened;
 use crate::sentence::shown;
 use crate::view::{Layer, RunView, note_on_media, picture_pixels};
@@ -167,7 +167,7 @@ impl Session {
     pub(super) fn play(&mut self, recorded: Recorded) {
         let language = self.language;
         let caption = &recorded.log.header.caption;
-        let texts: Vec<&str> = [&*caption.title, &*caption.memo].into_iter().filter(|text| !text.is_empty()).collect();
+        let texts: Vec<String> = text_lines(&caption.title).chain(text_lines(&caption.memo)).collect();
         if !texts.is_empty() {
             self.note(shown(&texts.join(" — "), 400));
         }
