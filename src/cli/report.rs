@@ -97,6 +97,9 @@ impl Report {
     }
 }
 
+/// The most nodes whose atoms are listed.
+const MAX_NODES_NAMED: usize = 32;
+
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { scene, width, height, strategy, nodes, .. } = self;
@@ -125,7 +128,16 @@ impl fmt::Display for Report {
             let (transfers, moved) = (plural(transfers, "transfer"), plural(atoms_moved, "atom"));
             writeln!(f, "  {offers}, {hops}, {transfers} of {moved}")?;
         }
-        let shares: Vec<_> = self.atoms_by_node.iter().map(u32::to_string).collect();
-        writeln!(f, "  atoms by node: {}", shares.join(" "))
+        let atoms = &self.atoms_by_node;
+        match (atoms.iter().min(), atoms.iter().max()) {
+            (Some(least), Some(most)) if atoms.len() > MAX_NODES_NAMED => {
+                let mean = f64::from(atoms.iter().sum::<u32>()) / atoms.len() as f64;
+                writeln!(f, "  atoms by node: from {least} to {most}, {mean:.1} on average")
+            }
+            _ => {
+                let shares: Vec<_> = atoms.iter().map(u32::to_string).collect();
+                writeln!(f, "  atoms by node: {}", shares.join(" "))
+            }
+        }
     }
 }
