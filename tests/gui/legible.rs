@@ -1,6 +1,8 @@
 //! All texts are legible: on every page, in both languages, at every size and in projector mode, no text is cut off by
 //! its container, shortened, or drawn over another.
 
+use std::collections::BTreeMap;
+
 use anel::gui::{Launch, Opening, Phase};
 use anel::language::Language;
 use anel::lesson::{BUILT_IN, Lesson};
@@ -116,6 +118,8 @@ fn faults(window: &Window, hidden: Hidden) -> Vec<String> {
 struct Walk {
     window: Window,
     found: Vec<String>,
+    /// The places of the picture in the steps of a lesson so far, by window.
+    pictures: BTreeMap<String, Rect>,
 }
 
 impl Walk {
@@ -127,7 +131,7 @@ impl Walk {
         if in_projector_mode {
             key(&mut window, Key::F11);
         }
-        Self { window, found: Vec::new() }
+        Self { window, found: Vec::new(), pictures: BTreeMap::new() }
     }
 
     fn look(&mut self, page: &str, hidden: Hidden) {
@@ -241,6 +245,7 @@ impl Walk {
     /// Checks every step of a lesson, before and after its question is answered.
     fn take_lesson(&mut self, name: &str) {
         let lesson = Lesson::open(name).expect("a built-in lesson");
+        self.pictures.clear();
         let language = session(&self.window).language();
         key(&mut self.window, Key::N);
         // The lesson may be further down the list.
@@ -270,7 +275,13 @@ impl Walk {
                 key(&mut self.window, Key::F11);
             }
             for language in LANGUAGES {
-                self.look(&format!("{size:?}, {language:?}, {page}"), Hidden::Nothing);
+                let at = format!("{size:?}, {in_projector_mode}, {language:?}");
+                self.look(&format!("{at}, {page}"), Hidden::Nothing);
+                let picture = self.window.get_by_label(["Picture", "Imagem"][language as usize]).rect();
+                let first = *self.pictures.entry(at.clone()).or_insert(picture);
+                if first != picture {
+                    self.found.push(format!("{at}, {page}: the picture has moved from {first:?} to {picture:?}"));
+                }
                 self.window.key_press_modifiers(Modifiers::SHIFT, Key::L);
                 self.window.run_steps(3);
             }

@@ -220,7 +220,7 @@ impl App {
         }
         self.update_highlight();
         // The audience of a projector only looks; its presenter uses keys.
-        if self.shows_timeline || !self.projector {
+        if !self.projector || self.shows_timeline && !self.learn.is_on() {
             self.machines(ui);
         }
         let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID, language);
@@ -276,21 +276,25 @@ impl App {
 
     /// Shows the table of machines, or the timeline.
     fn machines(&mut self, ui: &mut Ui) {
-        let nodes = self.session.header().speeds.len();
-        let height = if self.shows_timeline {
-            timeline::height(ui, nodes, self.learn.is_on())
-        } else {
-            nodes::height(ui, nodes)
+        let height = match self.learn.machines() {
+            // All steps of a lesson have the same height, so that the picture keeps its place.
+            Some(nodes) => timeline::height(ui, nodes, true).max(nodes::height(ui, nodes)),
+            None if self.shows_timeline => timeline::height(ui, self.session.header().speeds.len(), false),
+            None => nodes::height(ui, self.session.header().speeds.len()),
         };
         let below = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
         below.show(ui, |ui| {
             if self.shows_timeline {
-                let hovered = self.hovered.as_ref();
-                self.timeline.show(ui, &mut self.session, &mut self.selection, &self.highlight, hovered);
+                self.timeline(ui);
             } else {
                 nodes::show(ui, &mut self.session, &mut self.selection, &self.highlight);
             }
         });
+    }
+
+    fn timeline(&mut self, ui: &mut Ui) {
+        let hovered = self.hovered.as_ref();
+        self.timeline.show(ui, &mut self.session, &mut self.selection, &self.highlight, hovered);
     }
 
     /// Looks up the hovered and the selected subject, and what to highlight for them in this frame.
@@ -319,7 +323,8 @@ impl App {
         self.highlight = details.map(|details| details.highlight(stage.state())).unwrap_or_default();
     }
 
-    /// Shows the picture and, beside it, the ring or the inspector.
+    /// Shows the picture and, beside it, the ring or the inspector. On a projector the timeline of a lesson takes the
+    /// place of the ring: below the picture there is no room for it.
     fn main_area(&mut self, ui: &mut Ui) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         // In less height both would be cut off.
@@ -334,6 +339,7 @@ impl App {
         });
         ui.scope_builder(within(right), |ui| match self.session.inspected_pixel() {
             Some(pixel) => inspector::show(ui, pixel, &mut self.session),
+            None if self.projector && self.learn.is_on() && self.shows_timeline => self.timeline(ui),
             None => ring::show(ui, &mut self.session, &mut self.selection, &self.highlight),
         });
     }

@@ -22,6 +22,10 @@ const HEAD_WIDTH_PT: f32 = 20.0 * GRID;
 
 /// Least height of a lane whose head has a slider, in points.
 const MIN_SLIDER_LANE_PT: f32 = 16.0;
+/// Least width of a panel whose lanes have heads with sliders, in points.
+const MIN_SLIDER_WIDTH_PT: f32 = 75.0 * GRID;
+/// Width of a lane's head without a slider, in points.
+const NARROW_HEAD_PT: f32 = 6.0 * GRID;
 
 /// Least height of a lane whose number stands in its chip, in points.
 const MIN_NUMBERED_LANE_PT: f32 = 15.0;
@@ -73,10 +77,10 @@ impl TimelinePanel {
         let look = Look::of(ui.ctx());
         let area = ui.available_rect_before_wrap();
         let nodes = session.header().speeds.len();
-        // Low lanes have narrow heads without sliders.
-        let has_sliders =
-            TimelineLayout::new(nodes, area.width(), area.height()).lane_height >= MIN_SLIDER_LANE_PT + 2.0;
-        let left = if has_sliders { HEAD_WIDTH_PT } else { 6.0 * GRID };
+        // Low or short lanes have narrow heads without sliders.
+        let has_sliders = area.width() >= MIN_SLIDER_WIDTH_PT
+            && TimelineLayout::new(nodes, area.width(), area.height()).lane_height >= MIN_SLIDER_LANE_PT + 2.0;
+        let left = if has_sliders { HEAD_WIDTH_PT } else { NARROW_HEAD_PT };
         let lanes = area.with_min_x(area.left() + left);
         let layout = TimelineLayout::new(nodes, lanes.width(), lanes.height());
         let response = ui.allocate_rect(lanes, Sense::click_and_drag());
@@ -93,7 +97,7 @@ impl TimelinePanel {
         }
         let painter = ui.painter_at(lanes.expand(1.0));
         self.paint(&painter, lanes, &layout, stage, highlight, look);
-        usage(&ui.painter_at(area), area, &layout, stage, look, language);
+        usage(&ui.painter_at(area), (area, has_sliders), &layout, stage, look, language);
         let scale = TimeScale::of_length(stage.shown_length());
         self.axis(&painter, lanes, &layout, scale, look, language);
         for node in 0..nodes as NodeId {
@@ -294,7 +298,7 @@ fn lane_head(
         let font = theme::strong(theme::SMALL.min(row.height()));
         ui.painter().text(chip.center(), Align2::CENTER_CENTER, node_name(node), font, ink);
     }
-    if row.height() >= MIN_SLIDER_LANE_PT {
+    if row.height() >= MIN_SLIDER_LANE_PT && row.width() > NARROW_HEAD_PT {
         let slider = Rect::from_min_max(pos2(chip.right() + GRID, row.top()), row.max);
         let at = UiBuilder::new().max_rect(slider).id_salt(("lane slider", node));
         ui.scope_builder(at, |ui| nodes::speed_slider(ui, node, slider.width() - 6.5 * GRID, session));
@@ -315,7 +319,14 @@ fn numbers(painter: &Painter, area: Rect, layout: &TimelineLayout, look: Look) {
 }
 
 /// Paints the figures of the machines' usage up to the shown time, as many as fit, above the strip that shows it.
-fn usage(painter: &Painter, area: Rect, lanes: &TimelineLayout, stage: &Stage, look: Look, language: Language) {
+fn usage(
+    painter: &Painter,
+    (area, has_caption): (Rect, bool),
+    lanes: &TimelineLayout,
+    stage: &Stage,
+    look: Look,
+    language: Language,
+) {
     if lanes.header_height == 0.0 || stage.lasted() == Time::ZERO {
         return;
     }
@@ -325,8 +336,8 @@ fn usage(painter: &Painter, area: Rect, lanes: &TimelineLayout, stage: &Stage, l
     if let Some(galley) = galleys.find(|galley| galley.size().x <= area.width()) {
         painter.galley(area.min, galley, look.quiet);
     }
-    // The narrow heads of low lanes have no room for the caption.
-    if lanes.lane_height < MIN_SLIDER_LANE_PT + 2.0 {
+    // Narrow heads have no room for the caption.
+    if !has_caption {
         return;
     }
     let label = layout(word!(language, "machines in use", "máquinas em uso").into());

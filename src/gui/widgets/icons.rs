@@ -53,8 +53,10 @@ pub enum Icon {
     Copy,
     /// Question mark: help.
     Help,
-    /// Cross: close.
+    /// Cross: close, or wrong.
     Close,
+    /// Tick: right.
+    Tick,
 }
 
 /// Paints an icon into a square.
@@ -195,5 +197,6 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
             line(&[(0.22, 0.22), (0.78, 0.78)]);
             line(&[(0.78, 0.22), (0.22, 0.78)]);
         }
+        Icon::Tick => _ = line(&[(0.15, 0.55), (0.4, 0.8), (0.85, 0.22)]),
     }
 }

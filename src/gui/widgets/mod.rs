@@ -87,6 +87,12 @@ pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, text: Option<&s
     response
 }
 
+/// Returns the width of a text on a button, in points.
+pub fn text_width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Button.resolve(ui.style());
+    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
+}
+
 /// Returns the element after `current`; after the last one the first.
 pub fn cycle<T: Copy + PartialEq>(all: &[T], current: T) -> T {
     all.iter().cycle().skip_while(|other| **other != current).nth(1).copied().unwrap_or(current)

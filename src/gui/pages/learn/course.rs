@@ -3,7 +3,7 @@
 use super::rate_for;
 use crate::gui::session::{PreparedLesson, Session};
 use crate::language::Language;
-use crate::lesson::{LowerView, Question, Step};
+use crate::lesson::{LowerView, Step};
 use crate::time::Time;
 use crate::view::Subject;
 
@@ -65,24 +65,38 @@ impl LessonProgress {
         self.is_last() && self.until.is_none() && !self.waits()
     }
 
-    /// Returns the text of the step.
-    pub fn say(&self, language: Language) -> &str {
-        self.now().say.in_language(language)
+    /// Returns a step, by its index.
+    pub fn at(&self, step: usize) -> &Step {
+        &self.lesson.lesson.steps[step]
     }
 
-    /// Returns the question of the step and the chosen answer.
-    pub fn question(&self) -> Option<(&Question, Option<usize>)> {
-        self.now().ask.as_ref().map(|question| (question, self.answers[self.step]))
+    /// Returns the chosen answer of a step's question.
+    pub fn answer_of(&self, step: usize) -> Option<usize> {
+        self.answers[step]
     }
 
-    /// Returns the text of the step's checked claims; it may be shown only after an answer.
-    pub fn checked(&self, language: Language) -> Option<String> {
-        self.now().checked_words(&self.lesson.values[self.step], language)
+    /// Returns the text of a step's checked claims; it may be shown only after an answer.
+    pub fn checked(&self, step: usize, language: Language) -> Option<String> {
+        self.at(step).checked_words(&self.lesson.values[step], language)
+    }
+
+    /// Returns the number of right answers, of answers and of questions.
+    pub fn score(&self) -> [usize; 3] {
+        let questions = || {
+            self.lesson
+                .lesson
+                .steps
+                .iter()
+                .zip(&self.answers)
+                .filter_map(|(step, answer)| Some((step.ask.as_ref()?, *answer)))
+        };
+        let right = questions().filter(|(question, answer)| *answer == Some(question.right)).count();
+        [right, questions().filter(|(_, answer)| answer.is_some()).count(), questions().count()]
     }
 
     /// Whether the question of the step has no answer yet.
     pub fn waits(&self) -> bool {
-        self.question().is_some_and(|(_, answer)| answer.is_none())
+        self.now().ask.is_some() && self.answers[self.step].is_none()
     }
 
     /// Whether the step shows the timeline.
@@ -90,9 +104,14 @@ impl LessonProgress {
         self.now().look == LowerView::Timeline
     }
 
+    /// Returns the greatest number of machines of the lesson's runs.
+    pub fn machines(&self) -> usize {
+        self.lesson.lesson.runs.values().map(|run| run.speeds.len()).max().unwrap_or_default()
+    }
+
     /// Answers the question with the answer at this index, and plays to the end of the step.
     pub fn answer(&mut self, index: usize, session: &mut Session) {
-        if self.question().is_some_and(|(question, answer)| answer.is_none() && index < question.answers.len()) {
+        if self.waits() && self.now().ask.as_ref().is_some_and(|question| index < question.answers.len()) {
             self.answers[self.step] = Some(index);
             // The notice may say that an answer is missing.
             session.end_notices();
@@ -136,7 +155,7 @@ impl LessonProgress {
 
     fn now(&self) -> &Step {
         // A lesson has at least one step, and `step` is always an index of one.
-        &self.lesson.lesson.steps[self.step]
+        self.at(self.step)
     }
 
     /// Enters the step: shows its run where the previous step of the same run has ended.

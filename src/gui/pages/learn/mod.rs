@@ -1,5 +1,6 @@
 //! Lessons: the list, and the open lesson.
 
+mod answers;
 mod course;
 mod panel;
 
@@ -77,6 +78,11 @@ impl Learn {
     /// Whether the step of the open lesson shows the timeline.
     pub fn wants_timeline(&self) -> Option<bool> {
         self.progress.as_ref().map(LessonProgress::wants_timeline)
+    }
+
+    /// Returns the greatest number of machines of the open lesson's runs.
+    pub fn machines(&self) -> Option<usize> {
+        self.progress.as_ref().map(LessonProgress::machines)
     }
 
     /// Returns the name of the open lesson and the index of its step, for tests.

@@ -1,15 +1,13 @@
 //! Panel of a lesson's step: text, question, answers, and buttons.
 
-use std::ops::Range;
+use egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, UiBuilder, vec2};
 
-use egui::{Align, Color32, FontId, Label, Layout, RichText, TextStyle, Ui, UiBuilder, Vec2, vec2};
-
+use super::answers;
 use super::course::LessonProgress;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, named_button};
+use crate::gui::widgets::{Emphasis, button, text_width};
 use crate::language::{Language, say, word};
-use crate::lesson::Question;
 
 /// Action of a button of the panel.
 pub enum LessonAction {
@@ -25,173 +23,150 @@ pub enum LessonAction {
 
 /// Least height of the panel, in points.
 const MIN_HEIGHT_PT: f32 = 11.0 * GRID;
-/// Distance between answers and between their rows, in points.
-const ANSWER_GAP_PT: Vec2 = vec2(GRID, GRID / 2.0);
 
-/// Returns the height of the panel at this width. In a high window it includes the explanation of the answer, so that
-/// the answer moves nothing.
+/// Returns the height of the panel at this width: that of the lesson's highest step, so that neither a step nor an
+/// answer changes the size of the picture.
 pub fn height(ui: &Ui, width: f32, progress: &LessonProgress, language: Language) -> f32 {
-    let (width, gap) = (width - buttons(ui, progress, language), ui.spacing().item_spacing.y);
+    let room = width - buttons_width(ui, language);
+    let steps = (0..progress.steps()).map(|step| step_height(ui, room, progress, step, language));
+    steps.fold(MIN_HEIGHT_PT, f32::max)
+}
+
+/// Returns the height of a step's texts at this width, whether its question has an answer or not.
+fn step_height(ui: &Ui, width: f32, progress: &LessonProgress, step: usize, language: Language) -> f32 {
+    let gap = ui.spacing().item_spacing.y;
     let high = |text: &str, font: FontId| {
         ui.painter().layout(text.to_owned(), font, Color32::PLACEHOLDER, width).size().y + gap
     };
-    let said = progress.say(language);
+    let said = progress.at(step).say.in_language(language);
     let mut all = high(&heading(progress, language), theme::regular(theme::SMALL))
         + high(said, theme::strong(font_size(said, width, ui)));
-    if let Some((question, answer)) = progress.question() {
-        let is_high = ui.ctx().content_rect().height() > 700.0;
+    if let Some(question) = &progress.at(step).ask {
+        let reason = high(question.because.in_language(language), theme::regular(theme::BODY))
+            + checked(ui, progress, step, language).map_or(0.0, |checked| high(&checked, theme::regular(theme::SMALL)));
+        let [open, answered] = answers::heights(ui, width, question, language);
         all += GRID / 2.0 + high(question.question.in_language(language), theme::strong(theme::BODY));
-        if is_high || answer.is_some() {
-            all += high(question.because.in_language(language), theme::regular(theme::BODY));
-            all += checked(ui, progress, language).map_or(0.0, |checked| high(&checked, theme::regular(theme::SMALL)));
-        }
-        all += rows(ui, width, question, language).len() as f32 * (4.0 * GRID + ANSWER_GAP_PT.y) + gap;
+        all += open.max(answered + gap + reason);
     }
-    all.max(MIN_HEIGHT_PT)
+    if step + 1 == progress.steps() {
+        all += score(progress, language).map_or(0.0, |score| high(&score, theme::strong(theme::BODY)));
+    }
+    all
 }
 
 /// Returns the width of the buttons and of the gap before them.
-fn buttons(ui: &Ui, progress: &LessonProgress, language: Language) -> f32 {
+fn buttons_width(ui: &Ui, language: Language) -> f32 {
     // Gap, two icon buttons, the button with icon and text, and the distances between them.
-    2.0 * GRID
-        + 4.0 * GRID
-        + 4.0 * GRID
-        + (6.0 * GRID + text_width(ui, next_text(progress, language)))
-        + 2.0 * ui.spacing().item_spacing.x
+    2.0 * GRID + 4.0 * GRID + 4.0 * GRID + next_width(ui, language) + 2.0 * ui.spacing().item_spacing.x
 }
 
-/// Returns the width of a text on a button.
-fn text_width(ui: &Ui, text: &str) -> f32 {
-    let font = TextStyle::Button.resolve(ui.style());
-    ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER).size().x
-}
-
-/// Distributes the answers to rows, with room for their marks.
-fn rows(ui: &Ui, width: f32, question: &Question, language: Language) -> Vec<Range<usize>> {
-    let mut rows: Vec<Range<usize>> = Vec::new();
-    let mut x = 0.0;
-    for (index, answer) in question.answers.iter().enumerate() {
-        let text = answer.in_language(language);
-        let forms = [format!("{} {text}", index + 1), marked(text, true, language), marked(text, false, language)];
-        let wide = forms.iter().map(|form| text_width(ui, form)).fold(0.0, f32::max) + 3.0 * GRID;
-        match rows.last_mut() {
-            Some(row) if x + wide <= width => row.end = index + 1,
-            _ => {
-                rows.push(index..index + 1);
-                x = 0.0;
-            }
-        }
-        x += wide + ANSWER_GAP_PT.x;
-    }
-    rows
-}
-
-/// Returns the text of an answer with its mark.
-fn marked(answer: &str, is_right: bool, language: Language) -> String {
-    if is_right {
-        say!(language, "Right: {answer}", "Certo: {answer}")
-    } else {
-        say!(language, "Wrong: {answer}", "Errado: {answer}")
-    }
+/// Returns the width of the button that goes on. It is the same in all steps, so that no button moves.
+fn next_width(ui: &Ui, language: Language) -> f32 {
+    6.0 * GRID
+        + [false, true].map(|is_over| text_width(ui, next_text(is_over, language))).into_iter().fold(0.0, f32::max)
 }
 
 /// Returns the text of the checked claims, unless the window is low.
-fn checked(ui: &Ui, progress: &LessonProgress, language: Language) -> Option<String> {
-    progress.checked(language).filter(|_| ui.ctx().content_rect().height() > 560.0)
+fn checked(ui: &Ui, progress: &LessonProgress, step: usize, language: Language) -> Option<String> {
+    progress.checked(step, language).filter(|_| ui.ctx().content_rect().height() > 560.0)
 }
 
 /// Returns the text of the button that goes on.
-fn next_text(progress: &LessonProgress, language: Language) -> &'static str {
-    if progress.is_over() {
-        word!(language, "Other lessons", "Outras lições")
-    } else {
-        word!(language, "Next", "Avançar")
-    }
+fn next_text(is_over: bool, language: Language) -> &'static str {
+    if is_over { word!(language, "Other lessons", "Outras lições") } else { word!(language, "Next", "Avançar") }
 }
 
-/// Returns the title of the lesson and the number of the step.
+/// Returns the title of the lesson, the number of the step, and the right answers so far.
 fn heading(progress: &LessonProgress, language: Language) -> String {
     let (title, number, all) = (progress.title(language), progress.step() + 1, progress.steps());
-    say!(language, "{title} · step {number} of {all}", "{title} · passo {number} de {all}")
+    let [right, answered, _] = progress.score();
+    let score = match answered {
+        0 => String::new(),
+        _ => say!(language, " · right answers: {right} of {answered}", " · respostas certas: {right} de {answered}"),
+    };
+    say!(language, "{title} · step {number} of {all}{score}", "{title} · passo {number} de {all}{score}")
+}
+
+/// Returns the result of the lesson's questions, if it has any.
+fn score(progress: &LessonProgress, language: Language) -> Option<String> {
+    let [right, _, questions] = progress.score();
+    match questions {
+        0 => None,
+        1 if right == 1 => Some(word!(language, "Your answer was right.", "Sua resposta estava certa.").to_owned()),
+        1 => Some(word!(language, "Your answer was wrong.", "Sua resposta estava errada.").to_owned()),
+        _ => Some(say!(
+            language,
+            "Result: {right} of {questions} answers were right.",
+            "Resultado: {right} de {questions} respostas estavam certas."
+        )),
+    }
 }
 
 /// Shows the step. Returns the action of the pressed button.
 pub fn show(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option<LessonAction> {
-    let look = Look::of(ui.ctx());
-    let mut action = None;
     let area = ui.available_rect_before_wrap();
-    let left = area.with_max_x(area.right() - buttons(ui, progress, language));
+    let left = area.with_max_x(area.right() - buttons_width(ui, language));
     let right = area.with_min_x(left.right() + 2.0 * GRID);
-    ui.scope_builder(UiBuilder::new().max_rect(left), |ui| {
-        ui.label(RichText::new(heading(progress, language)).font(theme::regular(theme::SMALL)).color(look.quiet));
-        let said = RichText::new(progress.say(language)).font(theme::strong(font_size(
-            progress.say(language),
-            left.width(),
-            ui,
-        )));
-        ui.add(Label::new(said.color(look.text)).wrap());
-        if let Some((question, answer)) = progress.question() {
-            ui.add_space(GRID / 2.0);
-            let text = RichText::new(question.question.in_language(language))
-                .font(theme::strong(theme::BODY))
-                .color(look.text);
-            ui.add(Label::new(text).wrap());
-            action = answers(ui, progress, language);
-            if answer.is_some() {
-                let because = RichText::new(question.because.in_language(language));
-                ui.add(Label::new(because.font(theme::regular(theme::BODY)).color(look.text)).wrap());
-                if let Some(checked) = checked(ui, progress, language) {
-                    let checked = RichText::new(checked).font(theme::regular(theme::SMALL)).color(look.quiet);
-                    ui.add(Label::new(checked).wrap());
-                }
-            }
-        }
-    });
-    ui.scope_builder(UiBuilder::new().max_rect(right), |ui| {
-        ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
-            let leave = word!(language, "Leave the lesson", "Sair da lição");
-            if button(ui, Some(Icon::Close), leave, false, Emphasis::Quiet).clicked() {
-                action = Some(LessonAction::Leave);
-            }
-            ui.add_enabled_ui(!progress.waits(), |ui| {
-                let next = button(ui, Some(Icon::Next), next_text(progress, language), true, Emphasis::Primary);
-                if next.on_hover_text("Page ↓").clicked() {
-                    action = Some(LessonAction::Next);
-                }
-            });
-            ui.add_enabled_ui(progress.step() > 0, |ui| {
-                let back = button(ui, Some(Icon::Back), word!(language, "Back", "Voltar"), false, Emphasis::Quiet);
-                if back.on_hover_text(word!(language, "Back (Page ↑)", "Voltar (Page ↑)")).clicked() {
-                    action = Some(LessonAction::Back);
-                }
-            });
-        });
-    });
-    action
+    let answer = ui.scope_builder(UiBuilder::new().max_rect(left), |ui| texts(ui, progress, language)).inner;
+    let pressed = ui.scope_builder(UiBuilder::new().max_rect(right), |ui| buttons(ui, progress, language)).inner;
+    pressed.or(answer.map(LessonAction::Answer))
 }
 
-/// Shows the answers, marked as right or wrong once one is chosen.
-fn answers(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option<LessonAction> {
-    let (question, answer) = progress.question()?;
+/// Shows the texts, the question and its answers. Returns the index of the pressed answer.
+fn texts(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option<usize> {
+    let look = Look::of(ui.ctx());
+    let wrapped = |ui: &mut Ui, text: &str, font: FontId, colour: Color32| {
+        ui.add(Label::new(RichText::new(text).font(font).color(colour)).wrap());
+    };
+    let mut pressed = None;
+    wrapped(ui, &heading(progress, language), theme::regular(theme::SMALL), look.quiet);
+    let step = progress.step();
+    let said = progress.at(step).say.in_language(language);
+    let size = font_size(said, ui.available_width(), ui);
+    wrapped(ui, said, theme::strong(size), look.text);
+    if let Some(question) = &progress.at(step).ask {
+        ui.add_space(GRID / 2.0);
+        wrapped(ui, question.question.in_language(language), theme::strong(theme::BODY), look.text);
+        match progress.answer_of(step) {
+            None => pressed = answers::show(ui, question, language),
+            Some(chosen) => {
+                answers::verdict(ui, question, chosen, language);
+                wrapped(ui, question.because.in_language(language), theme::regular(theme::BODY), look.text);
+                if let Some(checked) = checked(ui, progress, step, language) {
+                    wrapped(ui, &checked, theme::regular(theme::SMALL), look.quiet);
+                }
+            }
+        }
+    }
+    if let Some(score) = score(progress, language).filter(|_| progress.is_over()) {
+        wrapped(ui, &score, theme::strong(theme::BODY), look.accent);
+    }
+    pressed
+}
+
+/// Shows the buttons that go back, go on and leave.
+fn buttons(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option<LessonAction> {
     let mut action = None;
-    let mut show_answer = |ui: &mut Ui, index: usize| {
-        let text = question.answers[index].in_language(language);
-        let (shown, emphasis) = match answer {
-            Some(_) if index == question.right => (marked(text, true, language), Emphasis::On),
-            Some(chosen) if index == chosen => (marked(text, false, language), Emphasis::Quiet),
-            _ => (format!("{} {text}", index + 1), Emphasis::Quiet),
-        };
-        ui.add_enabled_ui(answer.is_none() || index == question.right, |ui| {
-            if named_button(ui, None, text, Some(&shown), emphasis).clicked() {
-                action = Some(LessonAction::Answer(index));
+    ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
+        let leave = word!(language, "Leave the lesson", "Sair da lição");
+        if button(ui, Some(Icon::Close), leave, false, Emphasis::Quiet).clicked() {
+            action = Some(LessonAction::Leave);
+        }
+        let text = next_text(progress.is_over(), language);
+        let size = vec2(next_width(ui, language), 4.0 * GRID);
+        let next = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Min), |ui| {
+            ui.set_min_width(size.x);
+            ui.add_enabled_ui(!progress.waits(), |ui| button(ui, Some(Icon::Next), text, true, Emphasis::Primary)).inner
+        });
+        if next.inner.on_hover_text("Page ↓").clicked() {
+            action = Some(LessonAction::Next);
+        }
+        ui.add_enabled_ui(progress.step() > 0, |ui| {
+            let back = button(ui, Some(Icon::Back), word!(language, "Back", "Voltar"), false, Emphasis::Quiet);
+            if back.on_hover_text(word!(language, "Back (Page ↑)", "Voltar (Page ↑)")).clicked() {
+                action = Some(LessonAction::Back);
             }
         });
-    };
-    ui.scope(|ui| {
-        ui.spacing_mut().item_spacing = ANSWER_GAP_PT;
-        for row in rows(ui, ui.available_width(), question, language) {
-            ui.horizontal(|ui| row.for_each(|index| show_answer(ui, index)));
-        }
     });
     action
 }
