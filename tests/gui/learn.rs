@@ -41,6 +41,9 @@ fn question_of_a_step_is_answered_before_the_run_goes_on() {
     key(&mut window, Key::PageDown);
     assert_eq!((step(&window).map(|(_, step)| step), done(&window)), (Some(1), before));
     press(&mut window, "Yes");
+    window.get_by_label("Wrong: Yes");
+    window.get_by_label("Right: No");
+    window.get_by_label_contains("step 2 of 5 · right answers: 0 of 1");
     window.get_by_label_contains("more than a quarter of the machines' time is lost");
     window.get_by_label_contains("Checked on these runs: efficiency: ");
     // Page Down first jumps to the end of the step.
@@ -149,4 +152,37 @@ fn projector_mode_is_large_and_has_few_buttons() {
     key(&mut window, Key::Escape);
     assert_eq!(window.ctx.zoom_factor(), zoom);
     window.get_by_role_and_label(Role::Button, "Restart");
+}
+
+#[test]
+fn result_of_all_questions_stands_at_the_end_of_a_lesson() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("mine.ron");
+    let asking = |until: &str, right: u32| {
+        format!(
+            "(say: \"D\", until: {until}, ask: (question: \"Q\", answers: [\"a\", \"b\"], right: {right}, because: \"B\"))"
+        )
+    };
+    let first = "(say: \"D\", until: Traced(0.2))".to_owned();
+    let steps = [first, asking("Traced(0.5)", 1), asking("End", 2)].join(", ");
+    let lesson =
+        format!("Lesson(title: \"Mine\", about: \"A\", runs: {{\"one\": (size: (40, 30))}}, steps: [{steps}])");
+    std::fs::write(&path, lesson).expect("a file");
+    let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
+    let go_on = |window: &mut Window, from: usize| {
+        while step(window).is_some_and(|(_, at)| at == from) {
+            key(window, Key::PageDown);
+        }
+    };
+    go_on(&mut window, 0);
+    key(&mut window, Key::Num1);
+    window.run_steps(3);
+    window.get_by_label("Right: a");
+    assert!(window.query_by_label_contains("Wrong: ").is_none());
+    go_on(&mut window, 1);
+    key(&mut window, Key::Num1);
+    until(&mut window, "the end", finished);
+    window.run_steps(3);
+    window.get_by_label("Wrong: a");
+    window.get_by_label("Result: 1 of 2 answers were right.");
 }

@@ -49,6 +49,21 @@ pub fn button(ui: &mut Ui, icon: Option<Icon>, name: &str, has_text: bool, empha
 
 /// Shows a button whose text differs from its accessible name.
 pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, text: Option<&str>, emphasis: Emphasis) -> Response {
+    paint_button(ui, icon, (name, text), 0.0, emphasis)
+}
+
+/// Shows a button that has room for a text of this width, in points: its own text may change, and its size does not.
+pub fn button_with_room(ui: &mut Ui, icon: Icon, name: &str, room: f32, emphasis: Emphasis) -> Response {
+    paint_button(ui, Some(icon), (name, Some(name)), room, emphasis)
+}
+
+fn paint_button(
+    ui: &mut Ui,
+    icon: Option<Icon>,
+    (name, text): (&str, Option<&str>),
+    room: f32,
+    emphasis: Emphasis,
+) -> Response {
     let look = Look::of(ui.ctx());
     let text_font = TextStyle::Button.resolve(ui.style());
     let galley = text.map(|text| ui.painter().layout_no_wrap(text.to_owned(), text_font, Color32::PLACEHOLDER));
@@ -56,7 +71,8 @@ pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, text: Option<&s
     let text_width = galley.as_ref().map_or(0.0, |galley| galley.size().x);
     let icon_width = if icon.is_some() { icon_side } else { 0.0 };
     let gap = if galley.is_some() && icon.is_some() { GRID } else { 0.0 };
-    let size = vec2(icon_width + gap + text_width + if galley.is_some() { 3.0 } else { 2.0 } * GRID, 4.0 * GRID);
+    let size =
+        vec2(icon_width + gap + text_width.max(room) + if galley.is_some() { 3.0 } else { 2.0 } * GRID, 4.0 * GRID);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), emphasis == Emphasis::On, name));
     if ui.is_rect_visible(rect) {

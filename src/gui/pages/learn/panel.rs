@@ -1,12 +1,12 @@
 //! Panel of a lesson's step: text, question, answers, and buttons.
 
-use egui::{Align, Color32, FontId, Label, Layout, RichText, Ui, UiBuilder, vec2};
+use egui::{Align, Color32, FontId, Label, Layout, RichText, Sense, Ui, UiBuilder, vec2};
 
 use super::answers;
 use super::course::LessonProgress;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, text_width};
+use crate::gui::widgets::{Emphasis, button, button_with_room, text_width};
 use crate::language::{Language, say, word};
 
 /// Action of a button of the panel.
@@ -23,24 +23,24 @@ pub enum LessonAction {
 
 /// Least height of the panel, in points.
 const MIN_HEIGHT_PT: f32 = 11.0 * GRID;
+/// Height of the line with the lesson's title and the buttons, in points.
+const HEAD_HEIGHT_PT: f32 = 4.0 * GRID;
 
 /// Returns the height of the panel at this width: that of the lesson's highest step, so that neither a step nor an
 /// answer changes the size of the picture.
 pub fn height(ui: &Ui, width: f32, progress: &LessonProgress, language: Language) -> f32 {
-    let room = width - buttons_width(ui, language);
-    let steps = (0..progress.steps()).map(|step| step_height(ui, room, progress, step, language));
+    let steps = (0..progress.steps()).map(|step| step_height(ui, width, progress, step, language));
     steps.fold(MIN_HEIGHT_PT, f32::max)
 }
 
-/// Returns the height of a step's texts at this width, whether its question has an answer or not.
+/// Returns the height of a step at this width, whether its question has an answer or not.
 fn step_height(ui: &Ui, width: f32, progress: &LessonProgress, step: usize, language: Language) -> f32 {
     let gap = ui.spacing().item_spacing.y;
     let high = |text: &str, font: FontId| {
         ui.painter().layout(text.to_owned(), font, Color32::PLACEHOLDER, width).size().y + gap
     };
     let said = progress.at(step).say.in_language(language);
-    let mut all = high(&heading(progress, language), theme::regular(theme::SMALL))
-        + high(said, theme::strong(font_size(said, width, ui)));
+    let mut all = HEAD_HEIGHT_PT + gap + high(said, theme::strong(font_size(said, width, ui)));
     if let Some(question) = &progress.at(step).ask {
         let reason = high(question.because.in_language(language), theme::regular(theme::BODY))
             + checked(ui, progress, step, language).map_or(0.0, |checked| high(&checked, theme::regular(theme::SMALL)));
@@ -52,18 +52,6 @@ fn step_height(ui: &Ui, width: f32, progress: &LessonProgress, step: usize, lang
         all += score(progress, language).map_or(0.0, |score| high(&score, theme::strong(theme::BODY)));
     }
     all
-}
-
-/// Returns the width of the buttons and of the gap before them.
-fn buttons_width(ui: &Ui, language: Language) -> f32 {
-    // Gap, two icon buttons, the button with icon and text, and the distances between them.
-    2.0 * GRID + 4.0 * GRID + 4.0 * GRID + next_width(ui, language) + 2.0 * ui.spacing().item_spacing.x
-}
-
-/// Returns the width of the button that goes on. It is the same in all steps, so that no button moves.
-fn next_width(ui: &Ui, language: Language) -> f32 {
-    6.0 * GRID
-        + [false, true].map(|is_over| text_width(ui, next_text(is_over, language))).into_iter().fold(0.0, f32::max)
 }
 
 /// Returns the text of the checked claims, unless the window is low.
@@ -104,12 +92,18 @@ fn score(progress: &LessonProgress, language: Language) -> Option<String> {
 
 /// Shows the step. Returns the action of the pressed button.
 pub fn show(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option<LessonAction> {
-    let area = ui.available_rect_before_wrap();
-    let left = area.with_max_x(area.right() - buttons_width(ui, language));
-    let right = area.with_min_x(left.right() + 2.0 * GRID);
-    let answer = ui.scope_builder(UiBuilder::new().max_rect(left), |ui| texts(ui, progress, language)).inner;
-    let pressed = ui.scope_builder(UiBuilder::new().max_rect(right), |ui| buttons(ui, progress, language)).inner;
-    pressed.or(answer.map(LessonAction::Answer))
+    let (head, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD_HEIGHT_PT), Sense::hover());
+    let right_to_left = Layout::right_to_left(Align::Center);
+    let pressed = ui.scope_builder(UiBuilder::new().max_rect(head).layout(right_to_left), |ui| {
+        let pressed = buttons(ui, progress, language);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let heading = RichText::new(heading(progress, language)).font(theme::regular(theme::SMALL));
+            ui.add(Label::new(heading.color(Look::of(ui.ctx()).quiet)).truncate());
+        });
+        pressed
+    });
+    let answer = texts(ui, progress, language);
+    pressed.inner.or(answer.map(LessonAction::Answer))
 }
 
 /// Shows the texts, the question and its answers. Returns the index of the pressed answer.
@@ -119,7 +113,6 @@ fn texts(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option<u
         ui.add(Label::new(RichText::new(text).font(font).color(colour)).wrap());
     };
     let mut pressed = None;
-    wrapped(ui, &heading(progress, language), theme::regular(theme::SMALL), look.quiet);
     let step = progress.step();
     let said = progress.at(step).say.in_language(language);
     let size = font_size(said, ui.available_width(), ui);
@@ -144,29 +137,28 @@ fn texts(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option<u
     pressed
 }
 
-/// Shows the buttons that go back, go on and leave.
+/// Shows the buttons that leave, go on and go back, from right to left.
 fn buttons(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option<LessonAction> {
     let mut action = None;
-    ui.with_layout(Layout::right_to_left(Align::Min), |ui| {
-        let leave = word!(language, "Leave the lesson", "Sair da lição");
-        if button(ui, Some(Icon::Close), leave, false, Emphasis::Quiet).clicked() {
-            action = Some(LessonAction::Leave);
-        }
-        let text = next_text(progress.is_over(), language);
-        let size = vec2(next_width(ui, language), 4.0 * GRID);
-        let next = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Min), |ui| {
-            ui.set_min_width(size.x);
-            ui.add_enabled_ui(!progress.waits(), |ui| button(ui, Some(Icon::Next), text, true, Emphasis::Primary)).inner
-        });
-        if next.inner.on_hover_text("Page ↓").clicked() {
+    let leave = word!(language, "Leave the lesson", "Sair da lição");
+    if button(ui, Some(Icon::Close), leave, false, Emphasis::Quiet).clicked() {
+        action = Some(LessonAction::Leave);
+    }
+    // The button has one width in all steps, so that no button moves.
+    let width =
+        [false, true].map(|is_over| text_width(ui, next_text(is_over, language))).into_iter().fold(0.0, f32::max);
+    let next = next_text(progress.is_over(), language);
+    ui.add_enabled_ui(!progress.waits(), |ui| {
+        let next = button_with_room(ui, Icon::Next, next, width, Emphasis::Primary);
+        if next.on_hover_text("Page ↓").clicked() {
             action = Some(LessonAction::Next);
         }
-        ui.add_enabled_ui(progress.step() > 0, |ui| {
-            let back = button(ui, Some(Icon::Back), word!(language, "Back", "Voltar"), false, Emphasis::Quiet);
-            if back.on_hover_text(word!(language, "Back (Page ↑)", "Voltar (Page ↑)")).clicked() {
-                action = Some(LessonAction::Back);
-            }
-        });
+    });
+    ui.add_enabled_ui(progress.step() > 0, |ui| {
+        let back = button(ui, Some(Icon::Back), word!(language, "Back", "Voltar"), false, Emphasis::Quiet);
+        if back.on_hover_text(word!(language, "Back (Page ↑)", "Voltar (Page ↑)")).clicked() {
+            action = Some(LessonAction::Back);
+        }
     });
     action
 }
