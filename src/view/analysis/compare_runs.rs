@@ -31,7 +31,7 @@ pub fn compare_runs(one: NamedBudget<'_>, other: NamedBudget<'_>, language: Lang
     let mut text = say!(
         language,
         "{name} takes {takes}, {ratio} times as long as {quicker}.",
-        "{name} leva {takes}, {ratio} vezes o tempo de {quicker}."
+        "“{name}” leva {takes}, {ratio} vezes o tempo de “{quicker}”."
     );
     for sentence in
         [power(quick.budget, slow.budget, language), cause(quick.budget, slow.budget, language)].into_iter().flatten()
@@ -59,7 +59,7 @@ fn same(one: NamedBudget<'_>, other: NamedBudget<'_>, language: Language) -> Str
     say!(
         language,
         "{a} and {b} take about the same time: {first} and {second}. {why}",
-        "{a} e {b} levam quase o mesmo tempo: {first} e {second}. {why}"
+        "“{a}” e “{b}” levam quase o mesmo tempo: {first} e {second}. {why}"
     )
 }
 
