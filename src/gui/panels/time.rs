@@ -115,9 +115,9 @@ impl TimePanel {
             named_button(ui, None, word!(language, "Unit of a step", "Unidade do passo"), Some(name), Emphasis::Quiet);
         let hint = word!(
             language,
-            "Event: a message or a change by the user. Atom: an atom is traced. Lap: a machine makes an offer. Press to \
+            "Event: a message or a change by the user. Atom: an atom is traced. Lap: a machine offers help. Press to \
             change",
-            "Evento: uma mensagem ou mudança do usuário. Átomo: um átomo é calculado. Volta: uma máquina faz uma oferta. \
+            "Evento: uma mensagem ou mudança do usuário. Átomo: um átomo é calculado. Volta: uma máquina oferece ajuda. \
             Pressione para mudar"
         );
         if unit.on_hover_text(hint).clicked() {

@@ -161,9 +161,9 @@ fn asking(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     } else {
         say!(
             language,
-            "In it machines wait {share} of their time between atoms, while offers, requests and atoms are on \
-             their way.",
-            "Nela as máquinas passam {share} do tempo entre átomos, enquanto ofertas, pedidos e átomos estão a caminho."
+            "In it machines wait {share} of their time between atoms, while offers of help, requests and atoms are \
+             on their way.",
+            "Nela as máquinas passam {share} do tempo entre átomos, enquanto ofertas de ajuda, pedidos e átomos estão a caminho."
         )
     }
 }
