@@ -24,9 +24,10 @@ pub struct Unreached {
 
 impl Unreached {
     /// Finds the machine with the most atoms of those that stand still and that no offer reaches; `None` if there is
-    /// none.
+    /// none with a hundredth of the picture: few atoms are soon taken over.
     pub(crate) fn of(state: &RunState) -> Option<Self> {
-        let all = (0..state.nodes().len() as NodeId).filter_map(|node| Self::at(state, node));
+        let is_large = |unreached: &Self| 100 * u64::from(unreached.atoms) >= u64::from(state.atoms());
+        let all = (0..state.nodes().len() as NodeId).filter_map(|node| Self::at(state, node).filter(is_large));
         // Among equals, the first.
         all.rev().max_by_key(|unreached| unreached.atoms)
     }
