@@ -54,6 +54,7 @@ pub use charts::time_budget_chart::{part_names, time_budget_height, time_budget_
 pub use charts::tradeoff::{Tradeoff, TradeoffDrawing};
 pub use draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 pub use inspect::{ChosenRay, Inspected, RaySpot, RayTree, SpanPlot, Term, Terms};
+pub use narration::event_sentences::before_virtual_time;
 pub use narration::happening::Happening;
 pub use narration::narrator::Narrator;
 pub use narration::record_sentences::{record_words, share_words};
@@ -79,7 +80,7 @@ pub use state::node_state::{Activity, NodeState, Parcels, Slot};
 pub use state::run_state::{Arrived, RunState};
 pub use text::format::{
     TimeScale, activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_number, rate_words,
-    time_words, two_digits,
+    row_words, time_words, two_digits,
 };
 pub use text::media::note_on_media;
 pub use text::quality::{measured_lines, quality_lines, quality_words, times_words};

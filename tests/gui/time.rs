@@ -5,7 +5,7 @@ use anel::gui::Phase;
 use anel::language::Language;
 use anel::record::RecordKind;
 use anel::time::Time;
-use anel::view::{Snapshot, Subject};
+use anel::view::{Snapshot, Subject, time_words};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
@@ -196,6 +196,39 @@ fn rate_of_time_goes_down_and_up() {
     }
     window.run_steps(3);
     assert!(session(&window).stage().shows_end(), "at the fastest rate the end is reached at once");
+}
+
+#[test]
+fn only_the_knob_shows_the_time_above_the_line() {
+    let mut window = finished();
+    let line = window.get_by_role_and_label(Role::Slider, "The run's time").rect();
+    let stage = session(&window).stage();
+    assert!(stage.is_at_end());
+    let knob = line.right_center() - egui::vec2(8.0, 0.0);
+    let clock = time_words(stage.lasted(), stage.playback_scale(), Language::English);
+    let shown = |window: &Window| -> Vec<egui::Rect> {
+        window.query_all_by_label(&clock).map(|label| label.rect()).filter(|rect| rect.top() > 100.0).collect()
+    };
+    window.hover_at(knob);
+    window.run_steps(3);
+    let [label] = shown(&window)[..] else { panic!("{:?}", shown(&window)) };
+    assert!(label.bottom() <= line.top() + 4.0, "{label:?} covers what is below {line:?}");
+    window.hover_at(knob - egui::vec2(80.0, 0.0));
+    window.run_steps(3);
+    assert_eq!(shown(&window), []);
+}
+
+#[test]
+fn recorded_run_does_not_wait_for_virtual_time() {
+    let mut window = open(SIZE);
+    press(&mut window, "Set up");
+    press(&mut window, "Virtual");
+    press(&mut window, "Full speed");
+    until(&mut window, "the end", |window| session(window).stage().phase == Phase::Finished);
+    key(&mut window, Key::Home);
+    window.run_steps(3);
+    assert_eq!(window.query_all_by_label_contains("Virtual time begins").count(), 0);
+    window.get_by_label_contains("emulated machines an equal band");
 }
 
 #[test]

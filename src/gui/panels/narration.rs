@@ -1,16 +1,17 @@
 //! Narration of the run: sentences or the result, and the bar of the machines' shares.
 
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
-use egui::{Align2, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Align2, Color32, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBuilder, pos2, vec2};
 
-use crate::gui::session::{Phase, Session};
+use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
+use crate::runlog::Driver;
 use crate::time::Time;
 use crate::view::{
-    Details, Happening, NodeShare, TimeScale, node_name, node_shares, percent, record_words, result_words,
+    Details, Happening, NodeShare, before_virtual_time, node_name, node_shares, percent, record_words, result_words,
     summary_figures, time_words, unfinished_words, work_split_words,
 };
 
@@ -44,8 +45,11 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>) {
         None => {
             sentence(upper, session, look);
             let stage = session.stage();
-            let earlier = stage.narrator().earlier(stage.state(), session.now());
-            events(upper, earlier.rev().take(events_shown(upper)), stage.time_scale(), look, language);
+            let (narrator, now) = (stage.narrator(), session.now());
+            let told = usize::from(narrator.event_time(stage.state(), now).is_some());
+            let more = narrator.events_so_far().saturating_sub(told + events_shown(upper));
+            let others = narrator.other_events(stage.state(), now).rev().take(events_shown(upper));
+            events(upper, others, more, stage, look, language);
         }
     }
     bar(ui, below, session, look);
@@ -86,7 +90,14 @@ fn selected(ui: &mut Ui, session: &Session, details: &Details, look: Look) {
     }
 }
 
-/// Shows the sentence of the moment.
+/// Returns the width of the column of times, in points.
+fn time_width(ui: &Ui, stage: &Stage, language: Language) -> f32 {
+    let longest = time_words(stage.length().max(Time::from_secs(10.0)), stage.playback_scale(), language);
+    let width = ui.painter().layout_no_wrap(longest, theme::regular(theme::SMALL), Color32::PLACEHOLDER).size().x;
+    width.ceil().max(5.0 * GRID)
+}
+
+/// Shows the sentence of the moment, after the time of its event.
 fn sentence(ui: &mut Ui, session: &Session, look: Look) {
     let language = session.language();
     let stage = session.stage();
@@ -103,38 +114,56 @@ fn sentence(ui: &mut Ui, session: &Session, look: Look) {
         Phase::Finished if stage.shows_end() && stage.state().finished().is_none() => {
             unfinished_words(stage.state(), language)
         }
+        // The records of virtual time begin when all costs are known.
+        Phase::Running if stage.log.header.driver == Driver::Sim && stage.log.records().is_empty() => {
+            before_virtual_time(language).into()
+        }
         _ => match stage.stepped_to() {
             Some(record) => record_words(record, stage.state(), language),
             None => stage.narrator().sentence(stage.state(), session.now(), language),
         },
     };
+    let event = match stage.stepped_to() {
+        Some(record) => Some(record.at),
+        None => stage.narrator().event_time(stage.state(), session.now()),
+    };
+    let (width, height) = (time_width(ui, stage, language), SENTENCE_HEIGHT_PT);
+    let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+    let when =
+        event.map_or(word!(language, "now", "agora").into(), |at| time_words(at, stage.playback_scale(), language));
+    let at = pos2(row.left() + width, row.top() + 0.5 * SENTENCE_HEIGHT_PT);
+    ui.painter().text(at, Align2::RIGHT_CENTER, when, theme::regular(theme::SMALL), look.quiet);
+    let room = row.with_min_x(row.left() + width + GRID);
     // The largest font in which the sentence has one line, else a small one.
-    let width = |size: f32| ui.painter().layout_no_wrap(sentence.clone(), theme::strong(size), look.text).size().x;
-    let size = [20.0, 18.0, theme::BODY].into_iter().find(|&size| width(size) <= ui.available_width());
+    let text_width = |size: f32| ui.painter().layout_no_wrap(sentence.clone(), theme::strong(size), look.text).size().x;
+    let size = [20.0, 18.0, theme::BODY].into_iter().find(|&size| text_width(size) <= room.width());
     let text = RichText::new(&sentence).font(theme::strong(size.unwrap_or(theme::SMALL))).color(look.text);
-    ui.allocate_ui(vec2(ui.available_width(), SENTENCE_HEIGHT_PT), |ui| {
-        ui.set_min_height(SENTENCE_HEIGHT_PT);
-        ui.add(Label::new(text).wrap());
-    });
+    ui.scope_builder(UiBuilder::new().max_rect(room), |ui| ui.add(Label::new(text).wrap()));
 }
 
-/// Shows events with their times, one line each.
+/// Shows events with their times, one line each, and after the last one how many `more` there are.
 fn events<'a>(
     ui: &mut Ui,
     events: impl Iterator<Item = (Time, &'a Happening)>,
-    scale: TimeScale,
+    more: usize,
+    stage: &Stage,
     look: Look,
     language: Language,
 ) {
-    let font = theme::regular(theme::SMALL);
-    for (at, event) in events {
+    let (font, scale, width) = (theme::regular(theme::SMALL), stage.playback_scale(), time_width(ui, stage, language));
+    let mut events = events.peekable();
+    while let Some((at, event)) = events.next() {
         let (line, response) = ui.allocate_exact_size(vec2(ui.available_width(), EVENT_HEIGHT_PT), Sense::hover());
         widgets::describe(&response, word!(language, "Event", "Evento"), || event.sentence(language));
         let y = line.center().y;
         let time = time_words(at, scale, language);
-        ui.painter().text(pos2(line.left() + 5.0 * GRID, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
-        let galley = one_line(ui, &event.sentence(language), &font, look, line.width() - 6.0 * GRID);
-        ui.painter().galley(pos2(line.left() + 6.0 * GRID, y - galley.size().y / 2.0), galley, look.quiet);
+        ui.painter().text(pos2(line.left() + width, y), Align2::RIGHT_CENTER, time, font.clone(), look.quiet);
+        let is_last = more > 0 && events.peek().is_none();
+        let more = if is_last { say!(language, "  … and {more} more", "  … e mais {more}") } else { String::new() };
+        let sentence = format!("{}{more}", event.sentence(language));
+        let left = line.left() + width + GRID;
+        let galley = one_line(ui, &sentence, &font, look, line.right() - left);
+        ui.painter().galley(pos2(left, y - galley.size().y / 2.0), galley, look.quiet);
     }
 }
 
@@ -167,7 +196,8 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     let rest = area.with_min_y(area.top() + 7.0 * GRID);
     let lines = (rest.height().max(0.0) / EVENT_HEIGHT_PT) as usize;
     ui.scope_builder(UiBuilder::new().max_rect(rest), |ui| {
-        events(ui, stage.narrator().events().rev().take(lines), stage.time_scale(), look, language);
+        let more = stage.narrator().events_so_far().saturating_sub(lines);
+        events(ui, stage.narrator().events().rev().take(lines), more, stage, look, language);
     });
     let parts = work_split_words(stage.state(), language).unwrap_or_default();
     let height =
@@ -195,7 +225,7 @@ fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let state = session.stage().state();
     let (shares, all) = (node_shares(state), state.atoms());
     widgets::describe(&response, word!(language, "Who has traced how much", "Quem calculou quanto"), || {
-        let text = |share: &NodeShare| format!("{} {}", node_name(share.node), percent(share.atoms, all));
+        let text = |share: &NodeShare| format!("{}: {}", node_name(share.node), percent(share.atoms, all));
         shares.iter().map(text).collect::<Vec<_>>().join(", ")
     });
     ui.painter().rect_filled(rect, 4.0, look.raised);

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use egui::{
-    Align, Align2, EventFilter, Key, Layout, Painter, Popup, PopupCloseBehavior, Pos2, Rect, Response, RichText, Role,
-    Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, EventFilter, Key, Layout, Painter, Popup, PopupCloseBehavior, Pos2, Rect, RectAlign, Response,
+    RichText, Role, Sense, Shape, Stroke, Tooltip, Ui, WidgetInfo, pos2, vec2,
 };
 
 use crate::gui::input::keys::UserCommand;
@@ -115,9 +115,9 @@ impl TimePanel {
             named_button(ui, None, word!(language, "Unit of a step", "Unidade do passo"), Some(name), Emphasis::Quiet);
         let hint = word!(
             language,
-            "Event: a message or a change by the user. Atom: an atom is traced. Lap: a machine makes an offer. Press to \
+            "Event: a message or a change by the user. Atom: an atom is traced. Lap: a machine offers help. Press to \
             change",
-            "Evento: uma mensagem ou mudança do usuário. Átomo: um átomo é calculado. Volta: uma máquina faz uma oferta. \
+            "Evento: uma mensagem ou mudança do usuário. Átomo: um átomo é calculado. Volta: uma máquina oferece ajuda. \
             Pressione para mudar"
         );
         if unit.on_hover_text(hint).clicked() {
@@ -293,21 +293,29 @@ fn line(ui: &Ui, rect: Rect, response: Response, session: &mut Session, look: Lo
     if response.has_focus() {
         painter.circle_stroke(handle, handle_radius + 3.0, Stroke::new(1.5, look.accent));
     }
-    if let Some(at) = response.hover_pos().filter(|_| length > Time::ZERO) {
-        let pointed = time_at(at);
+    let is_at_knob = response.dragged() || response.hover_pos().is_some_and(|at| at.distance(handle) <= 10.0);
+    if is_at_knob {
+        label_above(&response, handle, time_words(now, scale, language));
+    } else if let Some(at) = response.hover_pos().filter(|_| length > Time::ZERO) {
         let reach = Duration::from_secs_f64(length.secs() * f64::from(6.0 / rail.width().max(1.0)));
-        let mut lines = vec![time_words(pointed, scale.finer(1), language)];
-        lines.extend(
-            stage
-                .markers()
-                .near(pointed, reach)
-                .into_iter()
-                .filter(shown)
-                .take(3)
-                .map(|marker| marker.happening.sentence(language)),
-        );
-        response.on_hover_text_at_pointer(lines.join("\n"));
+        let near = stage.markers().near(time_at(at), reach).into_iter().filter(shown).take(3);
+        let words = |marker: &Marker| {
+            format!("{}: {}", time_words(marker.at, scale, language), marker.happening.sentence(language))
+        };
+        let lines: Vec<String> = near.map(words).collect();
+        if !lines.is_empty() {
+            label_above(&response, pos2(at.x, rail.center().y), lines.join("\n"));
+        }
     }
+}
+
+/// Shows a text above a place on the line, so that it does not cover the sentence below.
+fn label_above(response: &Response, at: Pos2, text: String) {
+    let mut tooltip = Tooltip::for_widget(response);
+    let above = &[RectAlign::TOP, RectAlign::TOP_START, RectAlign::TOP_END];
+    tooltip.popup = tooltip.popup.at_position(at - vec2(0.0, HEIGHT_PT / 2.0)).align(RectAlign::TOP);
+    tooltip.popup = tooltip.popup.align_alternatives(above);
+    tooltip.show(|ui| ui.label(text));
 }
 
 /// Paints a marker above or below the line: a wedge for a speed, bars for a pause, a circle for a retired machine.

@@ -3,13 +3,14 @@
 use egui::{Align, Color32, Label, Layout, RichText, TextStyle, Ui};
 
 use crate::gui::input::keys::UserCommand;
-use crate::gui::session::{Phase, Session};
+use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, named_button};
 use crate::language::{Language, say, word};
 use crate::runlog::Driver;
 use crate::sentence::shown;
+use crate::time::Time;
 use crate::view::{count, time_words};
 
 /// Which pages and panels are open; their buttons are shown as pressed.
@@ -55,12 +56,7 @@ pub fn show(ui: &mut Ui, session: &Session, open: OpenPages) -> Option<UserComma
         ui.with_layout(from_right, |ui| {
             clicked = clicked.or(buttons(ui, session, labelled, open));
             ui.add_space(if is_wide { 2.0 * GRID } else { GRID });
-            let time = time_words(session.stage().lasted(), session.stage().playback_scale(), language);
-            let font = theme::strong(theme::LARGE);
-            let needed = ui.painter().layout_no_wrap(time.clone(), font.clone(), look.text).size().x;
-            if needed < ui.available_width() {
-                ui.label(RichText::new(time).font(font).color(look.text));
-            }
+            clock(ui, session.stage(), look, language);
             if let Some(state) = time_state(session).filter(|_| ui.available_width() > 260.0) {
                 ui.label(quiet(state.into(), look.quiet));
             }
@@ -220,6 +216,20 @@ fn time_state(session: &Session) -> Option<&'static str> {
         (false, false, true) => Some(word!(language, "again", "de novo")),
         (_, false, false) if stage.shows_end() => None,
         (_, false, false) => Some(word!(language, "stopped at", "parado em")),
+    }
+}
+
+/// Shows the time of the run. It has the width of the longest time that is to be expected, so that its neighbours stay
+/// in their places.
+fn clock(ui: &mut Ui, stage: &Stage, look: Look, language: Language) {
+    let (scale, font) = (stage.playback_scale(), theme::strong(theme::LARGE));
+    let layout = |time| ui.painter().layout_no_wrap(time_words(time, scale, language), font.clone(), look.text);
+    let (time, length) = (stage.lasted(), stage.length());
+    let longest = if stage.phase == Phase::Running { length.max(Time::from_secs(10.0)) } else { length };
+    let size = layout(longest).size();
+    if size.x < ui.available_width() {
+        let text = RichText::new(time_words(time, scale, language)).font(font).color(look.text);
+        ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| ui.label(text));
     }
 }
 

@@ -74,8 +74,8 @@ pub enum PictureSource {
     Traced(Arc<TracedOnce>),
 }
 
-/// A trial to run, with the number of its column and its name.
-pub type NumberedTrial = (u64, String, Trial);
+/// A trial to run, with the number of its column and its changes.
+pub type NumberedTrial = (u64, Vec<Change>, Trial);
 
 impl Session {
     /// Returns the run on the stage as a subject of comparison: in virtual time, with all changes that the user has
@@ -128,9 +128,9 @@ impl Jobs {
                 },
             };
             send(CompareResult::Picture(Arc::clone(&picture)));
-            for (id, name, trial) in trials {
+            for (id, changes, trial) in trials {
                 let log = Arc::new(subject.paced(trial, &picture.costs).run(&picture.costs));
-                send(CompareResult::Run(id, Box::new(ComparedRun::new(name, log, &picture.pixels, ground))));
+                send(CompareResult::Run(id, Box::new(ComparedRun::new(changes, log, &picture.pixels, ground))));
             }
         });
         number

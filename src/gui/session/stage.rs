@@ -223,14 +223,12 @@ impl Stage {
 
     /// Returns unit and precision of the run's times.
     pub fn time_scale(&self) -> TimeScale {
-        /// How long, on the clock of whoever looks on, a run takes at least.
-        const LEAST_RUN_S: f64 = 10.0;
-        let mut length = self.length();
-        if self.phase == Phase::Running {
-            // The unit does not change while the run gets longer.
-            length = length.max(Time::from_secs(LEAST_RUN_S * self.time.rate().min(1.0)));
-        }
-        TimeScale::of_length(length)
+        /// Length that a run is taken to have while it goes on: unit and decimals do not change as it gets longer.
+        const USUAL_RUN_S: f64 = 10.0;
+        TimeScale::of_length(match self.phase {
+            Phase::Running => Time::from_secs(USUAL_RUN_S),
+            Phase::Preparing | Phase::Finished | Phase::Failed(_) => self.length(),
+        })
     }
 
     /// Returns the same scale, precise enough to follow the run at its playback rate.

@@ -31,7 +31,7 @@ pub fn compare_runs(one: NamedBudget<'_>, other: NamedBudget<'_>, language: Lang
     let mut text = say!(
         language,
         "{name} takes {takes}, {ratio} times as long as {quicker}.",
-        "{name} leva {takes}, {ratio} vezes o tempo de {quicker}."
+        "“{name}” leva {takes}, {ratio} vezes o tempo de “{quicker}”."
     );
     for sentence in
         [power(quick.budget, slow.budget, language), cause(quick.budget, slow.budget, language)].into_iter().flatten()
@@ -59,7 +59,7 @@ fn same(one: NamedBudget<'_>, other: NamedBudget<'_>, language: Language) -> Str
     say!(
         language,
         "{a} and {b} take about the same time: {first} and {second}. {why}",
-        "{a} e {b} levam quase o mesmo tempo: {first} e {second}. {why}"
+        "“{a}” e “{b}” levam quase o mesmo tempo: {first} e {second}. {why}"
     )
 }
 
@@ -161,9 +161,9 @@ fn asking(_: &TimeBudget, slow: &TimeBudget, language: Language) -> String {
     } else {
         say!(
             language,
-            "In it machines wait {share} of their time between atoms, while offers, requests and atoms are on \
-             their way.",
-            "Nela as máquinas passam {share} do tempo entre átomos, enquanto ofertas, pedidos e átomos estão a caminho."
+            "In it machines wait {share} of their time between atoms, while offers of help, requests and atoms are \
+             on their way.",
+            "Nela as máquinas passam {share} do tempo entre átomos, enquanto ofertas de ajuda, pedidos e átomos estão a caminho."
         )
     }
 }

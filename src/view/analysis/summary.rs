@@ -88,48 +88,93 @@ fn beside(makespan: Duration, length: Duration, language: Language) -> String {
     time_words(Time::ZERO + length, scale, language)
 }
 
-/// Says which machines did most and least of the work, and why, or which machine all others waited for. `None` if all
-/// did about the same.
+/// Says which machine cost most time, and which machines did most and least of the work, and why. `None` if there is
+/// only one machine.
 pub fn work_split_words(state: &RunState, language: Language) -> Option<String> {
-    match state.scheduler() {
-        _ if state.nodes().len() == 1 => None,
+    let parts = match state.scheduler() {
+        _ if state.nodes().len() == 1 => return None,
         Scheduler::Protocol(Strategy::Serial) => {
             let most = most_and_least(state).map(|[(most, _), _]| node_name(most))?;
-            Some(say!(language, "{most} traced all of it alone", "{most} calculou tudo sozinha"))
+            return Some(say!(language, "{most} traced all of it alone", "{most} calculou tudo sozinha"));
         }
         Scheduler::Protocol(Strategy::Static | Strategy::StaticEstimate) => {
-            waited_for(state, language).or_else(|| uneven(state, language))
+            let alone = word!(language, "no machine took over atoms", "nenhuma assumiu átomos");
+            match Costliest::of(state).filter(|costliest| costliest.is_long(state)) {
+                Some(costliest) => [Some(format!("{}; {alone}", costliest.words(state, language))), None],
+                None => [None, uneven(state, language)],
+            }
         }
-        scheduler if scheduler.is_farm() => {
+        scheduler => {
+            let costliest = Costliest::of(state).map(|costliest| costliest.words(state, language));
             let parts = counted(state.handed_out.count, word!(language, "part", "parte"), language);
-            let handed_out =
-                say!(language, "Machines asked the parent for {parts}", "As máquinas pediram {parts} ao pai");
-            Some(uneven(state, language).map_or_else(|| handed_out.clone(), |uneven| format!("{uneven}. {handed_out}")))
+            let handed_out = scheduler
+                .is_farm()
+                .then(|| say!(language, "Machines asked the parent for {parts}", "As máquinas pediram {parts} ao pai"));
+            let rest: Vec<String> = uneven(state, language).into_iter().chain(handed_out).collect();
+            [costliest, (!rest.is_empty()).then(|| rest.join(". "))]
         }
-        Scheduler::Protocol(_) | Scheduler::WorkStealing => uneven(state, language),
+    };
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join(". "))
+}
+
+/// The machine that cost most time: the one that finished last, since all others waited for it.
+struct Costliest<'a> {
+    node: NodeId,
+    machine: &'a NodeState,
+    /// Mean time from the last atom of each other machine to its last atom.
+    waited: Duration,
+}
+
+impl<'a> Costliest<'a> {
+    /// Finds it; `None` unless another machine waited for it.
+    fn of(state: &'a RunState) -> Option<Self> {
+        // A machine that traced nothing does not count.
+        let ends = || (0..).zip(state.nodes()).filter_map(|(node, of)| Some((node, of, of.last_atom?)));
+        // Of equals the first is named.
+        let (node, machine, last) = ends().min_by_key(|&(_, _, at)| Reverse(at))?;
+        let waits: Vec<Duration> =
+            ends().filter(|&(other, ..)| other != node).map(|(_, _, at)| last.since(at)).collect();
+        let waited = waits.iter().sum::<Duration>().checked_div(u32::try_from(waits.len()).ok()?)?;
+        (!waited.is_zero()).then_some(Self { node, machine, waited })
+    }
+
+    /// Whether the others waited for more than a twentieth of the run.
+    fn is_long(&self, state: &RunState) -> bool {
+        self.waited.as_secs_f64() > 0.05 * end(state).secs()
+    }
+
+    /// Says how long the others waited for it.
+    fn words(&self, state: &RunState, language: Language) -> String {
+        /// A shorter stop is no reason.
+        const MIN_STOP: Duration = Duration::from_millis(50);
+        let (name, waited) = (node_name(self.node), beside(end(state).since(Time::ZERO), self.waited, language));
+        let stopped = self.machine.stopped(end(state));
+        let how = if stopped >= MIN_STOP {
+            let stopped = beside(end(state).since(Time::ZERO), stopped, language);
+            say!(language, "stopped for {stopped}", "parada por {stopped}")
+        } else {
+            at_speed(state, self.machine, language)
+        };
+        if self.is_long(state) || stopped >= MIN_STOP {
+            say!(
+                language,
+                "{name} ({how}) cost most: the others waited {waited} for it on average",
+                "{name} ({how}) custou mais: as outras esperaram {waited} por ela em média"
+            )
+        } else {
+            say!(
+                language,
+                "No machine cost much: the others waited {waited} for {name}, the last",
+                "Nenhuma custou muito: as outras esperaram {waited} por {name}, a última"
+            )
+        }
     }
 }
 
-/// Names the machine that all others waited for, if they waited for more than a twentieth of the run.
-fn waited_for(state: &RunState, language: Language) -> Option<String> {
-    let end = state.finished()?.secs();
-    // A machine that traced nothing does not count.
-    let ends = || (0..).zip(state.nodes()).filter_map(|(node, of)| Some((node, of.last_atom?)));
-    // Of equals the first is named.
-    let (last, latest) = ends().min_by_key(|&(_, at)| Reverse(at))?;
-    let (first, earliest) = ends().min_by_key(|&(_, at)| at)?;
-    let waited = latest.since(earliest);
-    let is_long = waited.as_secs_f64() > 0.05 * end;
-    let slow = state.nodes().get(usize::from(last)).map(|node| at_speed(state, node, language)).unwrap_or_default();
-    is_long.then(|| {
-        let (last, first, waited) =
-            (node_name(last), node_name(first), beside(Duration::from_secs_f64(end), waited, language));
-        say!(
-            language,
-            "All waited for {last}, {slow}: {first} was done {waited} before it, and no machine took over atoms",
-            "Todas esperaram por {last}, {slow}: {first} terminou {waited} antes dela, e nenhuma assumiu átomos"
-        )
-    })
+/// Returns when the picture was complete.
+fn end(state: &RunState) -> Time {
+    state.finished().unwrap_or(state.head())
 }
 
 /// Finds the nodes that did most and least of the work, without spare ones.
@@ -153,8 +198,7 @@ fn uneven(state: &RunState, language: Language) -> Option<String> {
         "{first} traced most: {more} {at_most}; {last} least: {less} {at_least}",
         "{first} calculou mais: {more} {at_most}; {last}, menos: {less} {at_least}"
     );
-    let end = state.finished().unwrap_or(state.head());
-    let alike = fast.mean_speed(end) < 1.05 * slow.mean_speed(end);
+    let alike = fast.mean_speed(end(state)) < 1.05 * slow.mean_speed(end(state));
     let dearer = || mean_cost(state, least) > 1.05 * mean_cost(state, most);
     Some(if alike && dearer() {
         say!(language, "{words} (its atoms took longer)", "{words} (seus átomos demoraram mais)")
@@ -165,7 +209,7 @@ fn uneven(state: &RunState, language: Language) -> Option<String> {
 
 /// Describes a node's speed, or its mean speed if it changed.
 fn at_speed(state: &RunState, node: &NodeState, language: Language) -> String {
-    let mean = fraction(node.mean_speed(state.finished().unwrap_or(state.head())));
+    let mean = fraction(node.mean_speed(end(state)));
     if mean == fraction(node.speed) {
         say!(language, "at {mean}", "a {mean}")
     } else {
@@ -257,10 +301,13 @@ mod tests {
         let three = format!("{all}. 3 machines were done within 0.3 s");
         assert_eq!(
             shared(Strategy::Static, language),
-            format!("{three}. All waited for 3, at 10 %: 1 was done 9.0 s before it, and no machine took over atoms")
+            format!(
+                "{three}. 3 (at 10 %) cost most: the others waited 9.0 s for it on average; no machine took over atoms"
+            )
         );
         let farm = shared(Strategy::Farm, language);
-        assert!(farm.starts_with(&format!("{three}. 1 traced most: ")), "{farm}");
+        assert!(farm.starts_with(&format!("{three}. 3 (at 10 %) cost most: the others waited ")), "{farm}");
+        assert!(farm.contains(" for it on average. 1 traced most: "), "{farm}");
         assert!(farm.ends_with(" at 10 %. Machines asked the parent for 27 parts"), "{farm}");
     }
 

@@ -109,7 +109,7 @@ impl Inspected {
         if self.lights > 0 {
             let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light, language)).collect();
             let lights = lights.join(", ");
-            sentences.push(say!(language, "Lights: {lights}.", "Luzes: {lights}."));
+            sentences.push(say!(language, "There {lights}.", "Ali {lights}."));
         }
         sentences
     }
@@ -118,19 +118,19 @@ impl Inspected {
     fn light_words(&self, ray: &ExplainedRay, light: usize, language: Language) -> String {
         let name = light + 1;
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
-            None => say!(language, "{name} is behind the surface", "{name} está atrás da superfície"),
-            Some(DVec3::ZERO) => say!(language, "{name} is hidden", "{name} está encoberta"),
-            Some(DVec3::ONE) => say!(language, "{name} arrives", "{name} chega"),
+            None => say!(language, "light {name} is behind the surface", "a luz {name} está atrás da superfície"),
+            Some(DVec3::ZERO) => say!(language, "light {name} is hidden", "a luz {name} está encoberta"),
+            Some(DVec3::ONE) => say!(language, "light {name} arrives", "a luz {name} chega"),
             Some(part) if part == DVec3::splat(part.x) => {
                 let part = fine_fraction(part.x, language);
-                say!(language, "{part} of {name} arrives", "de {name} chega {part}")
+                say!(language, "{part} of light {name} arrives", "da luz {name} chega {part}")
             }
             Some(part) => {
                 let [red, green, blue] = part.to_array().map(|part| fine_fraction(part, language));
                 say!(
                     language,
-                    "{red} of the red, {green} of the green and {blue} of the blue of {name} arrive",
-                    "de {name} chegam {red} do vermelho, {green} do verde e {blue} do azul"
+                    "{red} of the red, {green} of the green and {blue} of the blue of light {name} arrive",
+                    "da luz {name} chegam {red} do vermelho, {green} do verde e {blue} do azul"
                 )
             }
         }
@@ -141,7 +141,7 @@ impl Inspected {
         let [x, y] = self.pixel;
         let colour = self.colour();
         let [red, green, blue] = shown(colour);
-        let linear = colour.to_array().map(|value| decimal(language, value, 4)).join(" ");
+        let linear = colour.to_array().map(|value| decimal(language, value, 4)).join("; ");
         let mut text = say!(
             language,
             "Pixel {x}, {y}: {linear} in linear light, #{red:02x}{green:02x}{blue:02x} as shown\n",

@@ -3,13 +3,13 @@
 use std::time::Duration;
 
 use super::happening::{Happening, OfferReason, PauseEffect, Retirement, SpeedEffect};
-use super::transfer_sentences;
+use super::transfer_sentences::{self, Transfer};
 use crate::balance::{NodeId, Party, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::view::text::format::{atoms_words, counted, duration, fraction, names, node_name};
 
-/// Sentence for a run in virtual time whose costs are not known yet.
-pub(crate) fn before_virtual_time(language: Language) -> &'static str {
+/// Returns the sentence for a run in virtual time that has no records yet, because its costs are not known.
+pub fn before_virtual_time(language: Language) -> &'static str {
     word!(
         language,
         "Virtual time begins when the picture is traced and all costs are known",
@@ -48,10 +48,16 @@ impl Happening {
             Self::Retired { nodes, reason } => retired(language, nodes, *reason),
             &Self::Offer { node, reason } => offer(language, node, reason),
             &Self::Theft { thief, from, atoms } => transfer_sentences::theft(language, thief, from, atoms),
-            &Self::Takeover { from, to, atoms, giver } => {
-                transfer_sentences::takeover(language, from, to, atoms, giver)
+            &Self::Takeover { from, to, atoms, giver, share, is_early, unreached } => {
+                let transfer = Transfer { from, to, atoms, waiting: share.map_or(atoms, |share| share.waiting) };
+                match (unreached, share) {
+                    (Some(unreached), _) => transfer.before(unreached, language),
+                    (None, share) => transfer.takeover(giver, share, is_early, language),
+                }
             }
-            &Self::Gift { from, to, atoms, slow_at } => transfer_sentences::gift(language, from, to, atoms, slow_at),
+            &Self::Gift { from, to, atoms, waiting, slow_at } => {
+                Transfer { from, to, atoms, waiting }.gift(slow_at, language)
+            }
             Self::SmallTransfers { from, to, transfers, atoms, is_theft } => {
                 transfer_sentences::small_transfers(language, (*from, to), (*transfers, *atoms), *is_theft)
             }
@@ -115,17 +121,28 @@ fn own_latency(language: Language, party: Party, latency: Option<Duration>) -> S
 
 fn bands(language: Language, machines: usize, first: u32, is_whole: bool, scheduler: &Scheduler) -> String {
     match machines {
+        1 if *scheduler == Scheduler::WorkStealing => {
+            word!(language, "One thread traces the picture", "Uma thread calcula a imagem").into()
+        }
         _ if *scheduler == Scheduler::WorkStealing => say!(
             language,
             "{machines} threads trace the picture; an idle thread steals from another",
             "{machines} threads calculam a imagem; uma thread ociosa rouba de outra"
         ),
+        1 if scheduler.is_farm() => {
+            let part = atoms_words(first, language);
+            say!(
+                language,
+                "The parent gives the only machine a first part: {part}",
+                "O pai dá à única máquina uma primeira parte: {part}"
+            )
+        }
         _ if scheduler.is_farm() => {
             let part = atoms_words(first, language);
             say!(
                 language,
-                "The parent gives each of {machines} machines a first part: {part}",
-                "O pai dá a cada uma das {machines} máquinas uma primeira parte: {part}"
+                "The parent gives each of {machines} emulated machines a first part: {part}",
+                "O pai dá a cada uma das {machines} máquinas emuladas uma primeira parte: {part}"
             )
         }
         1 => word!(
@@ -142,13 +159,13 @@ fn bands(language: Language, machines: usize, first: u32, is_whole: bool, schedu
         .into(),
         _ if *scheduler == Scheduler::Protocol(Strategy::StaticEstimate) => say!(
             language,
-            "The parent gives each of {machines} machines a band that should cost the same",
-            "O pai dá a cada uma das {machines} máquinas uma faixa que deve custar o mesmo"
+            "The parent gives each of {machines} emulated machines a band that should cost the same",
+            "O pai dá a cada uma das {machines} máquinas emuladas uma faixa que deve custar o mesmo"
         ),
         _ => say!(
             language,
-            "The parent gives each of {machines} machines an equal band of the picture",
-            "O pai dá a cada uma das {machines} máquinas uma faixa igual da imagem"
+            "The parent gives each of {machines} emulated machines an equal band of the picture",
+            "O pai dá a cada uma das {machines} máquinas emuladas uma faixa igual da imagem"
         ),
     }
 }
@@ -273,6 +290,20 @@ fn speed(language: Language, node: NodeId, speed: f64, effect: SpeedEffect) -> S
         SpeedEffect::OthersHelp => {
             Some(word!(language, "the others will take over its work", "as outras vão assumir seu trabalho"))
         }
+        SpeedEffect::AnswersFirst(first) => {
+            let first = node_name(first);
+            return say!(
+                language,
+                "Machine {name} is stopped: {first} answers offers first, then the others take over its work",
+                "A máquina {name} está parada: {first} responde antes às ofertas, depois as outras assumem seu trabalho"
+            );
+        }
+        SpeedEffect::AtomsSooner => {
+            Some(word!(language, "it will trace its last atoms sooner", "vai calcular antes seus últimos átomos"))
+        }
+        SpeedEffect::Retired => {
+            Some(word!(language, "it has retired and takes no more work", "foi dispensada e não assume mais trabalho"))
+        }
         SpeedEffect::TakesMore => Some(word!(language, "it can take more work", "pode assumir mais trabalho")),
     };
     let runs = if speed == 0.0 {
@@ -307,6 +338,14 @@ fn paused(language: Language, node: NodeId, atoms: u32, effect: PauseEffect) -> 
         }
         PauseEffect::KeepsPipe => {
             say!(language, "{paused} and keeps the {atoms} in its pipe", "{paused} e fica com os {atoms} em seu pipe")
+        }
+        PauseEffect::AnswersFirst(first) => {
+            let first = node_name(first);
+            say!(
+                language,
+                "{paused}: {first} answers offers first, then the others take over its work",
+                "{paused}: {first} responde antes às ofertas, depois as outras assumem seu trabalho"
+            )
         }
         PauseEffect::OthersHelp => {
             say!(

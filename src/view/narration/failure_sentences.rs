@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::failure::Failure;
 use crate::balance::{NodeId, Party};
 use crate::language::{Language, say, word};
-use crate::view::text::format::{atoms_words, duration, names, node_name};
+use crate::view::text::format::{atoms_words, duration, machines, node_name};
 
 impl Failure {
     /// Puts it into one sentence without a full stop.
@@ -62,25 +62,25 @@ impl Failure {
                 )
             }
             Self::MissedMany(nodes) => {
-                let who = names(nodes, language);
+                let from = from_machines(nodes, language);
                 say!(
                     language,
-                    "The parent does not hear from machines {who}: the ring closes round them",
-                    "O pai não recebe nada das máquinas {who}: o anel se fecha sem elas"
+                    "The parent does not hear from {from}: the ring closes round them",
+                    "O pai não recebe nada {from}: o anel se fecha sem elas"
                 )
             }
             Self::Returned(nodes) => {
-                let who = names(nodes, language);
+                let from = from_machines(nodes, language);
                 match **nodes {
                     [_] => say!(
                         language,
-                        "The parent hears from machine {who} again: the ring opens for it",
-                        "O pai volta a receber da máquina {who}: o anel se abre para ela"
+                        "The parent hears from {from} again: the ring opens for it",
+                        "O pai volta a receber {from}: o anel se abre para ela"
                     ),
                     _ => say!(
                         language,
-                        "The parent hears from machines {who} again: the ring opens for them",
-                        "O pai volta a receber das máquinas {who}: o anel se abre para elas"
+                        "The parent hears from {from} again: the ring opens for them",
+                        "O pai volta a receber {from}: o anel se abre para elas"
                     ),
                 }
             }
@@ -90,6 +90,12 @@ impl Failure {
             Self::Wakes { from, to } => wakes(language, *from, to),
         }
     }
+}
+
+/// Names the machines that the parent hears from; in Portuguese with its preposition.
+fn from_machines(nodes: &[NodeId], language: Language) -> String {
+    let before = word!(language, ["machine ", "machines ", ""], ["da máquina ", "das máquinas ", "de "]);
+    machines(nodes, before, language)
 }
 
 fn hung(language: Language, node: NodeId, atoms: u32, is_recovered: bool) -> String {
@@ -141,61 +147,50 @@ fn delayed(language: Language, (from, to): (Party, Party), by: Duration) -> Stri
 }
 
 fn handed_out_again(language: Language, to: &[NodeId], atoms: u32) -> String {
-    let (who, what) = (names(to, language), atoms_words(atoms, language));
-    let machine = if let [_] = to {
-        word!(language, "machine", "à máquina")
-    } else {
-        word!(language, "machines", "às máquinas")
-    };
+    let what = atoms_words(atoms, language);
+    let before = word!(language, ["machine ", "machines ", ""], ["à máquina ", "às máquinas ", "a "]);
+    let to = machines(to, before, language);
     match atoms {
         1 => say!(
             language,
-            "{what} is missing: the parent hands it out again to {machine} {who}",
-            "Falta {what}: o pai o dá de novo {machine} {who}"
+            "{what} is missing: the parent hands it out again to {to}",
+            "Falta {what}: o pai o dá de novo {to}"
         ),
         _ => say!(
             language,
-            "{what} are missing: the parent hands them out again to {machine} {who}",
-            "Faltam {what}: o pai os dá de novo {machine} {who}"
+            "{what} are missing: the parent hands them out again to {to}",
+            "Faltam {what}: o pai os dá de novo {to}"
         ),
     }
 }
 
 fn copies(language: Language, from: NodeId, to: &[NodeId], atoms: u32) -> String {
-    let (late, who) = (node_name(from), names(to, language));
+    let late = node_name(from);
+    let before = word!(language, ["Machine ", "Machines ", ""], ["A máquina ", "As máquinas ", ""]);
+    let who = machines(to, before, language);
     match (to, atoms) {
         ([_], 1) => say!(
             language,
-            "Machine {who} traces a copy of an atom that is late at machine {late}",
-            "A máquina {who} calcula uma cópia de um átomo atrasado na máquina {late}"
+            "{who} traces a copy of an atom that is late at machine {late}",
+            "{who} calcula uma cópia de um átomo atrasado na máquina {late}"
         ),
         ([_], _) => say!(
             language,
-            "Machine {who} traces copies of {atoms} atoms that are late at machine {late}",
-            "A máquina {who} calcula cópias de {atoms} átomos atrasados na máquina {late}"
+            "{who} traces copies of {atoms} atoms that are late at machine {late}",
+            "{who} calcula cópias de {atoms} átomos atrasados na máquina {late}"
         ),
         _ => say!(
             language,
-            "Machines {who} trace copies of {atoms} atoms that are late at machine {late}",
-            "As máquinas {who} calculam cópias de {atoms} átomos atrasados na máquina {late}"
+            "{who} trace copies of {atoms} atoms that are late at machine {late}",
+            "{who} calculam cópias de {atoms} átomos atrasados na máquina {late}"
         ),
     }
 }
 
 fn wakes(language: Language, from: NodeId, to: &[NodeId]) -> String {
-    let (from, who) = (node_name(from), names(to, language));
-    match to {
-        [_] => say!(
-            language,
-            "Machine {from} needs help and wakes machine {who}",
-            "A máquina {from} precisa de ajuda e acorda a máquina {who}"
-        ),
-        _ => say!(
-            language,
-            "Machine {from} needs help and wakes machines {who}",
-            "A máquina {from} precisa de ajuda e acorda as máquinas {who}"
-        ),
-    }
+    let before = word!(language, ["machine ", "machines ", ""], ["a máquina ", "as máquinas ", ""]);
+    let (from, whom) = (node_name(from), machines(to, before, language));
+    say!(language, "Machine {from} needs help and wakes {whom}", "A máquina {from} precisa de ajuda e acorda {whom}")
 }
 
 fn switched_off(language: Language, node: NodeId, atoms: u32, is_recovered: bool) -> String {

@@ -5,6 +5,8 @@ use std::ops::Range;
 use std::time::Duration;
 
 use super::failure::Failure;
+use super::share::{Share, atoms_in_queue};
+use super::unreached::Unreached;
 use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy, Scheduler};
 use crate::picture::Atom;
 use crate::record::{Record, RecordKind};
@@ -43,9 +45,19 @@ pub enum Happening {
     /// A thread stole atoms.
     Theft { thief: NodeId, from: NodeId, atoms: u32 },
     /// A node that made an offer takes over atoms.
-    Takeover { from: NodeId, to: NodeId, atoms: u32, giver: Giver },
-    /// A node that made an offer was given atoms; `slow_at` is the giver's speed if it is slow.
-    Gift { from: NodeId, to: NodeId, atoms: u32, slow_at: Option<f64> },
+    Takeover {
+        from: NodeId,
+        to: NodeId,
+        atoms: u32,
+        giver: Giver,
+        share: Option<Share>,
+        /// The node offered help while it still had atoms.
+        is_early: bool,
+        /// A machine that the offer did not reach, because `from` answered it.
+        unreached: Option<Unreached>,
+    },
+    /// A node that made an offer was given `atoms` of the `waiting` ones; `slow_at` is the giver's speed if it is slow.
+    Gift { from: NodeId, to: NodeId, atoms: u32, waiting: u32, slow_at: Option<f64> },
     /// Small transfers of one giver, joined.
     SmallTransfers { from: NodeId, to: Vec<NodeId>, transfers: u32, atoms: u32, is_theft: bool },
     /// A machine's speed is changed.
@@ -120,8 +132,14 @@ pub enum SpeedEffect {
     PartReturns,
     /// The other machines take over the machine's work.
     OthersHelp,
+    /// The other machines take over the machine's work, but this one answers offers before.
+    AnswersFirst(NodeId),
     /// The machine can take more work.
     TakesMore,
+    /// The machine traces its last atoms sooner; too few wait with others.
+    AtomsSooner,
+    /// The machine has retired and takes no more work.
+    Retired,
 }
 
 /// Effect of a pause on the atoms of the machine.
@@ -139,6 +157,8 @@ pub enum PauseEffect {
     KeepsPipe,
     /// The other machines take the atoms over.
     OthersHelp,
+    /// The other machines take the atoms over, but this one answers offers before.
+    AnswersFirst(NodeId),
 }
 
 impl Happening {
@@ -162,6 +182,20 @@ impl Happening {
             RecordKind::Finished => Self::Complete,
             _ => return None,
         })
+    }
+
+    /// Whether it tells of the same as `listed`, an event of the list with the same time.
+    pub(crate) fn tells_of(&self, listed: &Self) -> bool {
+        match (self, listed) {
+            (Self::Takeover { from, to, atoms, .. }, Self::Gift { from: giver, to: taker, atoms: given, .. }) => {
+                (from, to, atoms) == (giver, taker, given)
+            }
+            (
+                Self::Takeover { from, to, .. } | Self::Theft { from, thief: to, .. },
+                Self::SmallTransfers { from: giver, to: takers, .. },
+            ) => from == giver && takers.contains(to),
+            _ => std::mem::discriminant(self) == std::mem::discriminant(listed),
+        }
     }
 
     /// Describes the parent's bands; `first` is the first of them.
@@ -209,7 +243,10 @@ impl Happening {
             Some(node) if is_slow(node) => Giver::Slow(node.speed),
             _ => Giver::Busy,
         };
-        Self::Takeover { from, to, atoms, giver }
+        let share = Share::of(state, from, to, atoms);
+        let is_early = state.has(Remedy::Early) && machine(state, to).is_some_and(|of| of.left() > 0);
+        let unreached = Unreached::of(state).filter(|unreached| unreached.answers == from);
+        Self::Takeover { from, to, atoms, giver, share, is_early, unreached }
     }
 
     /// Describes a transfer for the list of events.
@@ -218,7 +255,8 @@ impl Happening {
             return Self::Theft { thief: to, from, atoms };
         }
         let slow_at = machine(state, from).filter(|node| node.runs() && is_slow(node)).map(|node| node.speed);
-        Self::Gift { from, to, atoms, slow_at }
+        let waiting = Share::of(state, from, to, atoms).map_or(atoms, |share| share.waiting);
+        Self::Gift { from, to, atoms, waiting, slow_at }
     }
 
     /// Describes a new speed; `before` is the speed before the user began to change it.
@@ -236,9 +274,12 @@ impl Happening {
             _ if state.scheduler.is_farm() && speed == 0.0 => SpeedEffect::KeepsPart,
             Ordering::Less if state.scheduler.is_farm() => SpeedEffect::AsksLess,
             Ordering::Greater if state.scheduler.is_farm() => SpeedEffect::AsksMore,
-            Ordering::Less if others_run(state, node) => SpeedEffect::OthersHelp,
+            Ordering::Less if can_be_helped(state, node) => match Unreached::at(state, node) {
+                Some(unreached) => SpeedEffect::AnswersFirst(unreached.answers),
+                None => SpeedEffect::OthersHelp,
+            },
             Ordering::Less => SpeedEffect::None,
-            Ordering::Greater => SpeedEffect::TakesMore,
+            Ordering::Greater => faster(state, node),
         };
         Self::Speed { node, speed, effect }
     }
@@ -255,7 +296,10 @@ impl Happening {
             _ if state.scheduler.is_farm() => PauseEffect::KeepsPart,
             _ if state.scheduler.is_fixed() => PauseEffect::NobodyHelps,
             1..=PIPE_ATOMS if !state.has(Remedy::Copies) => PauseEffect::KeepsPipe,
-            left if (left > 0 || machine.band_at.is_none()) && others_run(state, node) => PauseEffect::OthersHelp,
+            _ if can_be_helped(state, node) => match Unreached::at(state, node) {
+                Some(unreached) => PauseEffect::AnswersFirst(unreached.answers),
+                None => PauseEffect::OthersHelp,
+            },
             _ => PauseEffect::None,
         };
         Self::Paused { node, atoms, effect }
@@ -281,6 +325,31 @@ fn machine(state: &RunState, node: NodeId) -> Option<&NodeState> {
     state.nodes().get(usize::from(node))
 }
 
-fn others_run(state: &RunState, node: NodeId) -> bool {
-    (0..).zip(state.nodes()).any(|(other, machine)| other != node && machine.runs())
+/// Whether others can take over atoms of a machine in a ring, or of a thread: atoms that it has, or soon gets.
+fn can_be_helped(state: &RunState, node: NodeId) -> bool {
+    let has_atoms = |machine: &NodeState| {
+        let can_be_given = match state.has(Remedy::Copies) || state.scheduler == Scheduler::WorkStealing {
+            true => machine.left(),
+            false => atoms_in_queue(machine.left()),
+        };
+        can_be_given > 0 || machine.band_at.is_none()
+    };
+    let helps = |machine: &NodeState| machine.runs() && (!machine.retired || state.has(Remedy::Wake));
+    machine(state, node).is_none_or(has_atoms)
+        && (0..).zip(state.nodes()).any(|(other, machine)| other != node && helps(machine))
+}
+
+/// Tells the effect of a higher speed in a ring, or of a thread.
+fn faster(state: &RunState, node: NodeId) -> SpeedEffect {
+    /// Below this part of the picture, the atoms that wait with others are not worth a promise.
+    const LEAST_PART: f64 = 0.02;
+    let has_begun = state.nodes().iter().any(|machine| machine.band_at.is_some());
+    let others = (0..).zip(state.nodes()).filter(|(other, _)| *other != node);
+    let waiting: u32 = others.map(|(_, machine)| atoms_in_queue(machine.left())).sum();
+    match machine(state, node) {
+        Some(machine) if machine.retired && !state.has(Remedy::Wake) => SpeedEffect::Retired,
+        _ if !has_begun || f64::from(waiting) >= LEAST_PART * f64::from(state.atoms()) => SpeedEffect::TakesMore,
+        Some(machine) if machine.left() > 0 => SpeedEffect::AtomsSooner,
+        _ => SpeedEffect::None,
+    }
 }

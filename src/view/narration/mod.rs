@@ -7,5 +7,7 @@ pub mod failure_sentences;
 pub mod happening;
 pub mod narrator;
 pub mod record_sentences;
+pub mod share;
 pub mod status;
 mod transfer_sentences;
+pub mod unreached;

@@ -1,7 +1,8 @@
 //! Sentences for single records, with their reasons, for stepping through a run.
 
 use super::happening::Happening;
-use crate::balance::{NodeId, PIPE_ATOMS, Party, Remedy, Scheduler};
+use super::share::{Share, ShareBasis, atoms_in_queue};
+use crate::balance::{NodeId, Party};
 use crate::language::{Language, say, word};
 use crate::record::{Record, RecordKind};
 use crate::view::state::flight::{Cargo, Flight};
@@ -92,8 +93,7 @@ fn sent_words(flight: &Flight, state: &RunState, language: Language) -> String {
     match (flight.from, flight.to, &flight.cargo) {
         (Party::Node(from), Party::Node(to), Cargo::Transfer(_)) => {
             let atoms = flight.cargo.atoms();
-            let why = share_words(state, from, to, atoms, language).map(|why| format!(": {why}")).unwrap_or_default();
-            format!("{}{why}", Happening::transfer(state, from, to, atoms).sentence(language))
+            Happening::transfer(state, from, to, atoms).sentence(language)
         }
         (Party::Node(from), _, Cargo::Offer { who }) if from == *who => {
             let done = state.nodes().get(usize::from(from)).map_or(0, |node| node.offered);
@@ -117,49 +117,26 @@ fn sent_words(flight: &Flight, state: &RunState, language: Language) -> String {
     }
 }
 
-/// Explains the number of atoms in a transfer, the latest record of `state` (§7); `None` for work stealing, which does
-/// not compute a share.
+/// Explains the number of atoms in a transfer, the latest record of `state`; `None` for work stealing.
 pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32, language: Language) -> Option<String> {
-    if !matches!(state.scheduler(), Scheduler::Protocol(_)) {
-        return None;
-    }
-    if state.has(Remedy::Speed) {
-        return Some(
-            word!(language, "at their speeds both finish together", "com suas velocidades, terminam juntas").into(),
-        );
-    }
-    let [owner, offerer] = [from, to].map(|node| state.nodes().get(usize::from(node)));
-    let (own, offered, waits) = (owner?.done, offerer?.offered, atoms_in_queue(owner?.left()) + atoms);
-    let (from, to) = (node_name(from), node_name(to));
-    let (atoms, verb) = (atoms_words(waits, language), if waits == 1 { "esperava" } else { "esperavam" });
-    let waits = say!(language, "of {atoms} that waited with machine {from}", "de {atoms} que {verb} na máquina {from}");
-    Some(match (own, offered) {
-        (0, 0) => {
+    let share = Share::of(state, from, to, atoms)?;
+    let (waiting, reason) = (atoms_words(share.waiting, language), share.reason(from, to, language));
+    let (from, verb) = (node_name(from), if share.waiting == 1 { "esperava" } else { "esperavam" });
+    Some(match share.basis {
+        ShareBasis::Traced { offerer, giver } => {
+            let [offerer, sum] = [offerer, offerer.saturating_add(giver)].map(count);
             say!(
                 language,
-                "{waits}, half, because neither machine had traced any",
-                "{waits}, a metade, pois nenhuma tinha calculado nada"
+                "{offerer}/{sum} of {waiting} that waited with machine {from}: {reason}",
+                "{offerer}/{sum} de {waiting} que {verb} na máquina {from}: {reason}"
             )
         }
-        (_, 0) => say!(
+        _ => say!(
             language,
-            "{waits}, one as a trial, because machine {to} had traced none",
-            "{waits}, um como teste, pois a máquina {to} não tinha calculado nenhum"
+            "of {waiting} that waited with machine {from}: {reason}",
+            "de {waiting} que {verb} na máquina {from}: {reason}"
         ),
-        _ => {
-            let [own, offered, sum] = [own, offered, own.saturating_add(offered)].map(count);
-            say!(
-                language,
-                "{waits}, {offered}/{sum}: machine {to} had traced {offered}, machine {from} {own}",
-                "{waits}, {offered}/{sum}: a máquina {to} tinha calculado {offered}, a máquina {from}, {own}"
-            )
-        }
     })
-}
-
-/// Returns how many of a node's `left` atoms wait in its queue, outside its pipe.
-fn atoms_in_queue(left: u32) -> u32 {
-    left.saturating_sub(PIPE_ATOMS)
 }
 
 #[cfg(test)]
@@ -190,7 +167,7 @@ mod tests {
                 let (own, offered) = (f64::from(owner.done), f64::from(offerer.offered));
                 let waits = f64::from(atoms_in_queue(owner.left()) + atoms);
                 assert!((waits * offered / (offered + own) - f64::from(atoms)).abs() <= 0.5, "{words}");
-                assert!(words.contains(" that waited with machine "), "{words}");
+                assert!(words.contains(" had traced "), "{words}");
                 shares += 1;
             }
         }

@@ -3,20 +3,23 @@
 use std::sync::Arc;
 
 use super::snapshots::{Snapshot, SnapshotCache};
+use crate::language::Language;
 use crate::palette::{Rgb, node_colours};
 use crate::picture::Colour;
 use crate::runlog::RunLog;
+use crate::sim::Change;
 use crate::time::Time;
 use crate::view::analysis::time_budget::TimeBudget;
 use crate::view::picture::canvas::Canvas;
 use crate::view::picture::overlay::Layer;
 use crate::view::state::lanes::Lanes;
+use crate::view::text::trial_names::trial_name;
 
 /// One of several finished runs, at the shown time.
 #[derive(Clone, Debug)]
 pub struct ComparedRun {
-    /// Its name.
-    pub name: String,
+    /// The changes that make it of the run that all are compared with.
+    changes: Vec<Change>,
     /// All of its records.
     pub log: Arc<RunLog>,
     /// Its time budget; `None` if its picture was never complete.
@@ -32,7 +35,7 @@ pub struct ComparedRun {
 
 impl ComparedRun {
     /// Creates a run at its beginning; `pixels` is its whole picture in scan order.
-    pub fn new(name: String, log: Arc<RunLog>, pixels: &[Colour], ground: Rgb) -> Self {
+    pub fn new(changes: Vec<Change>, log: Arc<RunLog>, pixels: &[Colour], ground: Rgb) -> Self {
         let header = &log.header;
         let colours = node_colours(header.speeds.len());
         let mut canvas = Canvas::new(header.size, header.division, colours.clone(), ground);
@@ -40,7 +43,7 @@ impl ComparedRun {
         let (snapshot, lanes) = (Snapshot::new(header), Lanes::of(&log));
         canvas.show_all(&snapshot.state);
         Self {
-            name,
+            changes,
             budget: TimeBudget::new(&log, &lanes),
             log,
             lanes,
@@ -49,6 +52,11 @@ impl ComparedRun {
             snapshot,
             canvas,
         }
+    }
+
+    /// Returns its name.
+    pub fn name(&self, language: Language) -> String {
+        trial_name(&self.log.header.rules.strategy, &self.changes, language)
     }
 
     /// Returns the length of its record.
@@ -106,7 +114,7 @@ mod tests {
         let mut log = RunLog::new(header.clone());
         log.add(sample_runs::records(&header));
         let pixels = vec![[0.5; 3]; header.size.pixels() as usize];
-        ComparedRun::new("Ring".into(), Arc::new(log), &pixels, [0; 3])
+        ComparedRun::new(Vec::new(), Arc::new(log), &pixels, [0; 3])
     }
 
     #[test]

@@ -112,7 +112,7 @@ impl Details {
             Subject::Node(node) => {
                 let facts = node_facts(state, node, now, language);
                 let of = |fact: Fact| facts.iter().find(|(other, _)| *other == fact)?.1.as_deref();
-                let said = [Fact::Offers, Fact::Gave, Fact::Got, Fact::Asked, Fact::Stole, Fact::Lost];
+                let said = [Fact::Stopped, Fact::Offers, Fact::Gave, Fact::Got, Fact::Asked, Fact::Stole, Fact::Lost];
                 let shared = said.iter().filter_map(|fact| Some((fact.name(language), of(*fact)?)));
                 let shared: String = shared.map(|(what, value)| format!(", {what}: {value}")).collect();
                 let value = |fact| of(fact).unwrap_or(word!(language, "unknown", "desconhecido"));
@@ -120,8 +120,8 @@ impl Details {
                 let [done, left, idle] = [Fact::Done, Fact::Left, Fact::Idle].map(value);
                 let title = say!(
                     language,
-                    "Machine {name} is {does}, at a speed of {speed}",
-                    "A máquina {name} está {does}, à velocidade de {speed}"
+                    "Machine {name}, at a speed of {speed}: {does}",
+                    "Máquina {name}, à velocidade de {speed}: {does}"
                 );
                 let more = say!(
                     language,

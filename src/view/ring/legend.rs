@@ -66,8 +66,8 @@ pub(crate) fn ring_legend(
             state.scheduler.is_ring(),
             word!(
                 language,
-                "Outer circle with arrows: the way of offers.",
-                "Círculo externo com setas: o caminho das ofertas."
+                "Outer circle with arrows: the way of offers of help.",
+                "Círculo externo com setas: o caminho das ofertas de ajuda."
             ),
         ),
         (
@@ -82,8 +82,8 @@ pub(crate) fn ring_legend(
             is_drawn(RingLayer::Offers),
             word!(
                 language,
-                "Numbered disc on the outer circle: the offer of that machine.",
-                "Disco numerado no círculo externo: a oferta dessa máquina."
+                "Numbered disc on the outer circle: that machine offers help.",
+                "Disco numerado no círculo externo: essa máquina oferece ajuda."
             ),
         ),
         (parcels, word!(language, "×n: a parcel of n atoms.", "×n: um pacote de n átomos.")),

@@ -1,6 +1,7 @@
 //! Rows of the table of machines, and their shares of the finished work.
 
 use std::borrow::Cow;
+use std::time::Duration;
 
 use super::node_state::{Activity, NodeState};
 use super::run_state::RunState;
@@ -22,6 +23,8 @@ pub struct NodeRow {
     pub left_bar: f32,
     /// Fraction of the time until now in which it had no atom, 0 to 1.
     pub idle: f64,
+    /// Time until now in which it was paused, hung, off or at speed 0.
+    pub stopped: Duration,
     /// What it does, as it is shown.
     pub activity: Activity,
     /// Its speed as a fraction of the reference machine.
@@ -60,6 +63,7 @@ pub fn node_rows(state: &RunState, now: Time) -> Vec<NodeRow> {
         done_bar: of.done as f32 / most,
         left_bar: (of.done + of.left()) as f32 / most,
         idle: if until == Time::ZERO { 0.0 } else { of.idle(until).as_secs_f64().min(until.secs()) / until.secs() },
+        stopped: of.stopped(until),
         activity: state.activity(*node, now),
         speed: of.speed,
         paused: of.paused,
@@ -83,6 +87,7 @@ pub fn node_shares(state: &RunState) -> Vec<NodeShare> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::{Record, RecordKind};
     use crate::view::tests::sample_runs;
 
     #[test]
@@ -105,5 +110,18 @@ mod tests {
         let rates: f64 = rows.iter().map(|row| row.rate).sum();
         let seconds = state.finished().expect("the end").secs();
         assert!((rates * seconds - 90.0).abs() < 1e-6, "{rates} atoms a second for {seconds} s");
+    }
+
+    #[test]
+    fn row_counts_the_time_in_which_its_machine_stood_still() {
+        let mut state = RunState::new(&sample_runs::header(&[1.0, 1.0], 90));
+        let mut apply = |secs, kind| state.apply(&Record { at: Time::from_secs(secs), kind });
+        apply(1.0, RecordKind::Paused { node: 0 });
+        apply(2.0, RecordKind::SpeedSet { node: 0, speed: 0.0 });
+        apply(3.0, RecordKind::Resumed { node: 0 });
+        apply(4.0, RecordKind::SpeedSet { node: 0, speed: 0.5 });
+        apply(9.0, RecordKind::Paused { node: 0 });
+        let stopped = |secs| node_rows(&state, Time::from_secs(secs)).swap_remove(0).stopped;
+        assert_eq!([9.0, 10.5].map(stopped), [3.0, 4.5].map(Duration::from_secs_f64));
     }
 }

@@ -61,6 +61,10 @@ pub struct NodeState {
     /// ∫ speed dt from time 0 to `speed_since`, in seconds of the reference machine.
     speed_seconds: f64,
     speed_since: Time,
+    /// Since when it does not run; `None` while it runs.
+    pub(crate) stopped_since: Option<Time>,
+    /// Time in which it did not run, until `stopped_since`.
+    stopped: Duration,
 }
 
 /// Number of transfers, and of the atoms in them.
@@ -170,6 +174,11 @@ impl NodeState {
         self.idle + self.idle_since.map_or(Duration::ZERO, |since| now.since(since))
     }
 
+    /// Time until `now` in which it was paused, hung, off or at speed 0. A spare machine is not stopped.
+    pub fn stopped(&self, now: Time) -> Duration {
+        self.stopped + self.stopped_since.map_or(Duration::ZERO, |since| now.since(since))
+    }
+
     /// Mean speed from time 0 to `now`; while the machine is paused, hung or off it counts 0.
     pub fn mean_speed(&self, now: Time) -> f64 {
         let now = now.max(self.speed_since);
@@ -206,6 +215,8 @@ impl NodeState {
             throughput: Throughput::default(),
             speed_seconds: 0.0,
             speed_since: Time::ZERO,
+            stopped_since: (speed == 0.0 && !spare).then_some(Time::ZERO),
+            stopped: Duration::ZERO,
         }
     }
 
@@ -248,21 +259,33 @@ impl NodeState {
     pub(crate) fn set_speed(&mut self, speed: f64, at: Time) {
         self.add_speed_seconds(at);
         (self.previous_speed, self.speed) = (self.speed, speed);
+        self.note_stop(at);
     }
 
     pub(crate) fn set_paused(&mut self, paused: bool, at: Time) {
         self.add_speed_seconds(at);
         self.paused = paused;
+        self.note_stop(at);
     }
 
     pub(crate) fn set_condition(&mut self, condition: Condition, at: Time) {
         self.add_speed_seconds(at);
         self.previous_condition = std::mem::replace(&mut self.condition, condition);
+        self.note_stop(at);
     }
 
     /// Sets the number of its atoms.
     pub(crate) fn set_left(&mut self, atoms: u32, at: Time) {
         self.change_left(i64::from(atoms) - self.left, at);
+    }
+
+    /// Keeps account of the time in which it does not run, after a change at `at`.
+    fn note_stop(&mut self, at: Time) {
+        if !self.runs() {
+            self.stopped_since.get_or_insert(at);
+        } else if let Some(since) = self.stopped_since.take() {
+            self.stopped += at.since(since);
+        }
     }
 
     fn effective_speed(&self) -> f64 {
@@ -315,6 +338,7 @@ mod tests {
         node.set_speed(0.25, at(5.0));
         node.set_paused(false, at(6.0));
         assert_eq!(node.mean_speed(at(6.0)), 0.5);
+        assert_eq!((node.stopped(at(6.0)), node.stopped_since), (Duration::from_secs(2), None));
         assert_eq!(node.mean_speed(at(10.0)), 0.4);
     }
 }

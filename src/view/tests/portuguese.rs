@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::faults::faults;
 use super::sample_runs;
 use crate::balance::{Condition, NodeId, Party, Rules, Scheduler, Strategy};
 use crate::language::Language;
@@ -27,8 +28,9 @@ use crate::view::playback::snapshots::{Snapshot, SnapshotCache};
 use crate::view::ring::labels;
 use crate::view::ring::layout::RingLayout;
 use crate::view::ring::{RingOverlay, ring};
+use crate::view::state::node_rows::node_rows;
 use crate::view::state::node_state::Activity;
-use crate::view::text::format::{TimeScale, activity_word};
+use crate::view::text::format::{TimeScale, activity_word, row_words};
 use crate::view::text::quality::{measured_lines, quality_words, times_words};
 use crate::view::text::scene_stats::{needs_lines, needs_warnings};
 use crate::view::text::tooltips::{atom_words, drawing_notes, flight_words, node_words, parent_words};
@@ -36,7 +38,7 @@ use crate::view::timeline::landmarks::{StepUnit, Subject, landmarks};
 
 /// Room for a text.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Room {
+pub(super) enum Room {
     /// A sentence that is read while the run goes on.
     Heard,
     /// About as much as for the English text.
@@ -46,7 +48,7 @@ enum Room {
 }
 
 /// Texts, and the room for each.
-type Said = Vec<(Room, String)>;
+pub(super) type Said = Vec<(Room, String)>;
 
 /// English words that no Portuguese sentence has.
 const ENGLISH: [&str; 40] = [
@@ -92,12 +94,13 @@ const ENGLISH: [&str; 40] = [
     "stopped",
 ];
 
-/// Makes the texts in both languages, and compares them.
-fn compare(say: impl Fn(Language) -> Said) {
+/// Makes the texts in both languages, compares them, and looks for faults in both.
+pub(super) fn compare(say: impl Fn(Language) -> Said) {
     let [english, portuguese] = [Language::English, Language::Portuguese].map(say);
     assert_eq!(english.len(), portuguese.len());
     let mut wrong = Vec::new();
     for ((room, english), (_, portuguese)) in english.iter().zip(&portuguese) {
+        wrong.extend(faults(english, Language::English).into_iter().chain(faults(portuguese, Language::Portuguese)));
         let length = portuguese.chars().count();
         let most = english.chars().count() as f64;
         let most = match room {
@@ -198,7 +201,7 @@ fn runs() -> Vec<RunLog> {
 }
 
 /// Sentences of a run while it goes on.
-fn sentences_while_it_runs(log: &RunLog, language: Language) -> Said {
+pub(super) fn sentences_while_it_runs(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
     let mut snapshot = Snapshot::new(&log.header);
     said.push((Room::Heard, snapshot.narrator.sentence(&snapshot.state, Time::ZERO, language)));
@@ -246,7 +249,7 @@ fn pointed_words(snapshot: &Snapshot, now: Time, language: Language) -> Said {
 }
 
 /// Sentences of a run after its end.
-fn sentences_after_it(log: &RunLog, language: Language) -> Said {
+pub(super) fn sentences_after_it(log: &RunLog, language: Language) -> Said {
     let mut said = Vec::new();
     let RunView { latest: snapshot, markers, lanes, .. } = RunView::of(log);
     let (state, mut cache) = (&snapshot.state, SnapshotCache::default());
@@ -262,6 +265,7 @@ fn sentences_after_it(log: &RunLog, language: Language) -> Said {
     }
     said.extend(found.into_iter().map(|mark| (Room::Same, mark.words)));
     let metrics = Metrics::of(log);
+    said.extend(node_rows(state, log.end()).iter().map(|row| (Room::Same, row_words(row, language))));
     if let (Some(makespan), Some(ideal), Some(efficiency)) = (metrics.makespan(), metrics.ideal(), metrics.efficiency())
     {
         let summary = Summary { makespan, ideal, efficiency, spread: metrics.finish_spread() };

@@ -5,6 +5,7 @@ use std::time::Duration;
 use crate::balance::{NodeId, Party};
 use crate::language::{Language, comma, decimal, say, word};
 use crate::time::Time;
+use crate::view::state::node_rows::NodeRow;
 use crate::view::state::node_state::Activity;
 
 /// Returns a node's name for people: its number from 1.
@@ -210,22 +211,39 @@ pub fn duration(length: Duration, language: Language) -> String {
     format!("{} {name}", decimal(language, number, digits))
 }
 
-/// Writes a time of a run in the scale of the run: `13.4 s`, `13.402 518 s`, `3.2 ms`.
+/// Writes a time of a run in the scale of the run: `13.4 s`, `13.402518 s`, `3.2 ms`. Its decimals are not grouped: a
+/// space among them would make two numbers of it.
 pub fn time_words(time: Time, scale: TimeScale, language: Language) -> String {
     let (name, power) = scale.unit.name_and_power();
     let digits = scale.decimals.saturating_sub(power) as usize;
-    let text = format!("{:.digits$}", time.secs() * 10_f64.powi(power as i32));
-    let (whole, part) = text.split_once('.').unwrap_or((&text, ""));
-    let mut words = whole.to_owned();
-    for (place, digit) in part.chars().enumerate() {
-        match place {
-            0 => words.push('.'),
-            _ if place.is_multiple_of(3) => words.push(NO_BREAK_SPACE),
-            _ => {}
-        }
-        words.push(digit);
+    format!("{} {name}", decimal(language, time.secs() * 10_f64.powi(power as i32), digits))
+}
+
+/// Writes a length of time in few letters, in seconds: `12 s`, `3.2 s`.
+fn brief_seconds(length: Duration, language: Language) -> String {
+    let seconds = length.as_secs_f64();
+    format!("{} s", decimal(language, seconds, usize::from(seconds < 9.95)))
+}
+
+/// Returns what a node is doing, for its row: if it is or was stopped, also for how long.
+pub fn row_words(row: &NodeRow, language: Language) -> String {
+    /// A shorter stop would be written as 0.
+    const MIN_STOP: Duration = Duration::from_millis(50);
+    let activity = match row.activity {
+        Activity::Done => word!(language, "stopped", "parada"),
+        activity => activity_word(activity, language),
+    };
+    let stops = matches!(
+        row.activity,
+        Activity::Done | Activity::Paused | Activity::SpeedZero | Activity::Hung | Activity::Off
+    );
+    if !stops || row.stopped < MIN_STOP {
+        return activity_word(row.activity, language).into();
     }
-    format!("{} {name}", comma(language, words))
+    let stopped = brief_seconds(row.stopped, language);
+    // The word ends with a number.
+    let mark = if row.activity == Activity::SpeedZero { "," } else { "" };
+    format!("{activity}{mark} {stopped}")
 }
 
 /// Returns the word for what a node is doing.
@@ -235,7 +253,7 @@ pub fn activity_word(activity: Activity, language: Language) -> &'static str {
         Activity::Tracing => word!(language, "tracing", "calculando"),
         Activity::SpeedZero => word!(language, "at 0 %", "a 0 %"),
         Activity::Paused => word!(language, "paused", "em pausa"),
-        Activity::Offering => word!(language, "offering", "oferecendo"),
+        Activity::Offering => word!(language, "offers help", "quer ajudar"),
         Activity::Asking => word!(language, "asking", "pedindo"),
         Activity::InLine => word!(language, "in line", "na fila"),
         Activity::Receiving => word!(language, "receiving", "recebendo"),
@@ -274,14 +292,16 @@ pub(crate) fn plural(noun: &str, language: Language) -> String {
     let ending = |ending, many| noun.strip_suffix(ending).map(|stem| format!("{stem}{many}"));
     match language {
         Language::English => None,
-        Language::Portuguese => ending("z", "zes").or_else(|| ending("el", "eis")),
+        Language::Portuguese => ending("z", "zes").or_else(|| ending("el", "eis")).or_else(|| ending("m", "ns")),
     }
     .unwrap_or_else(|| format!("{noun}s"))
 }
 
+/// More nodes than this are counted, not named.
+const MAX_NAMES: usize = 5;
+
 /// Lists nodes by name: `1`, `1 and 2`, `1, 2 and 3`; counts them if there are more than five.
 pub(crate) fn names(nodes: &[NodeId], language: Language) -> String {
-    const MAX_NAMES: usize = 5;
     let name = |node: &NodeId| node_name(*node).to_string();
     match nodes {
         [] => word!(language, "nobody", "ninguém").into(),
@@ -289,6 +309,18 @@ pub(crate) fn names(nodes: &[NodeId], language: Language) -> String {
         [..] if nodes.len() > MAX_NAMES => counted(nodes.len() as u32, word!(language, "machine", "máquina"), language),
         [..] => listed(&nodes.iter().map(name).collect::<Vec<_>>(), language),
     }
+}
+
+/// Lists nodes like [`names`], after the word that suits their number: `machine 1`, `machines 1 and 2`, `6 machines`.
+/// `before` stands before one name, before several names, and before a count.
+pub(crate) fn machines(nodes: &[NodeId], before: [&str; 3], language: Language) -> String {
+    let [one, several, counted] = before;
+    let before = match nodes.len() {
+        1 => one,
+        0 | 2..=MAX_NAMES => several,
+        _ => counted,
+    };
+    format!("{before}{}", names(nodes, language))
 }
 
 /// Lists words: `a`, `a and b`, `a, b and c`.
@@ -362,12 +394,12 @@ mod tests {
         let scale = TimeScale::of_length(Time::from_secs(20.0));
         let at_rate = |rate| time_words(Time(13_402_518_077), scale.at_rate(rate), language);
         let written = [2.0, 1.0, 0.1, 1e-3, 1e-6].map(at_rate);
-        let expected = ["13.4 s", "13.4 s", "13.40 s", "13.402\u{a0}5 s", "13.402\u{a0}518\u{a0}1 s"];
+        let expected = ["13.4 s", "13.4 s", "13.40 s", "13.4025 s", "13.4025181 s"];
         assert_eq!(written, expected);
         assert_eq!(time_words(Time(60_999_999_999), scale, language), "61.0 s");
         assert_eq!(time_words(Time(13_402_518_077), scale.with_decimals(3), language), "13.403 s");
         let [exact, finer] = [scale.with_decimals(9), scale.finer(2)].map(|scale| time_words(Time(1), scale, language));
-        assert_eq!([&*exact, &*finer], ["0.000\u{a0}000\u{a0}001 s", "0.000 s"]);
+        assert_eq!([&*exact, &*finer], ["0.000000001 s", "0.000 s"]);
     }
 
     #[test]
@@ -409,6 +441,9 @@ mod tests {
         let language = Language::English;
         let written = [&[6][..], &[0, 1], &[0, 1, 7], &[0, 1, 2, 3, 4, 5]].map(|nodes| names(nodes, language));
         assert_eq!(written, ["7", "1 and 2", "1, 2 and 8", "6 machines"]);
+        let wakes = [&[6][..], &[0, 1], &[0, 1, 2, 3, 4, 5]]
+            .map(|nodes| machines(nodes, ["machine ", "machines ", ""], language));
+        assert_eq!(wakes, ["machine 7", "machines 1 and 2", "6 machines"]);
         assert_eq!(
             [counted(1_u32, "offer", language), atoms_words(2000_u32, language)],
             ["1 offer", "2\u{a0}000 atoms"]
@@ -429,6 +464,6 @@ mod tests {
         assert_eq!(names(&[0, 1, 7], language), "1, 2 e 8");
         assert_eq!(duration(Duration::from_micros(1_300), language), "1,3 ms");
         let scale = TimeScale::of_length(Time::from_secs(20.0)).at_rate(1e-3);
-        assert_eq!(time_words(Time(13_402_518_077), scale, language), "13,402\u{a0}5 s");
+        assert_eq!(time_words(Time(13_402_518_077), scale, language), "13,4025 s");
     }
 }

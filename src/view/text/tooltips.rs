@@ -26,6 +26,7 @@ pub(crate) enum Fact {
     Pipe,
     Rate,
     Idle,
+    Stopped,
     Stole,
     Lost,
     Asked,
@@ -47,11 +48,12 @@ impl Fact {
             Self::Pipe => word!(language, "in the pipe", "no pipe"),
             Self::Rate => word!(language, "rate", "ritmo"),
             Self::Idle => word!(language, "idle", "ociosa"),
+            Self::Stopped => word!(language, "stopped for", "parada por"),
             Self::Stole => word!(language, "stole", "roubou"),
             Self::Lost => word!(language, "lost", "perdeu"),
             Self::Asked => word!(language, "asked", "pediu"),
             Self::Got => word!(language, "got", "recebeu"),
-            Self::Offers => word!(language, "offers", "ofertas"),
+            Self::Offers => word!(language, "offers of help", "ofertas de ajuda"),
             Self::Gave => word!(language, "gave", "deu"),
             Self::Shares => word!(language, "shares", "divide"),
             Self::Link => word!(language, "own link", "enlace próprio"),
@@ -82,6 +84,9 @@ pub(crate) fn node_facts(state: &RunState, node: NodeId, now: Time, language: La
         (Fact::Rate, Some(rate_words(row.rate, language))),
         (Fact::Idle, Some(fraction(row.idle))),
     ];
+    if !row.stopped.is_zero() && !of.spare {
+        facts.push((Fact::Stopped, Some(duration(row.stopped, language))));
+    }
     facts.extend(shared_facts(state.scheduler(), of, language));
     facts.extend(own_link_words(state, Party::Node(node), language).map(|own| (Fact::Link, Some(own))));
     facts
@@ -152,7 +157,8 @@ pub fn parent_words(state: &RunState, now: Time, language: Language) -> Vec<(&'s
         ),
     ];
     if !state.handling.is_zero() {
-        let (messages, each) = (state.line_length(now), duration(state.handling, language));
+        let messages = counted(state.line_length(now) as u64, word!(language, "message", "mensagem"), language);
+        let each = duration(state.handling, language);
         words.push((
             word!(language, "in line", "na fila"),
             say!(language, "{messages}, {each} each", "{messages}, {each} cada"),
@@ -188,7 +194,11 @@ pub fn drawing_notes(state: &RunState, language: Language) -> Vec<String> {
         ),
         _ if state.latency_range().1.is_zero() && state.handling.is_zero() => {}
         scheduler if scheduler.is_ring() => {
-            lines.push(say!(language, "an offer takes {takes} a hop", "uma oferta leva {takes} por salto"));
+            lines.push(say!(
+                language,
+                "an offer of help takes {takes} a hop",
+                "uma oferta de ajuda leva {takes} por salto"
+            ));
         }
         _ if state.handling.is_zero() => {
             lines.push(say!(language, "a message takes {takes}", "uma mensagem leva {takes}"))
@@ -268,8 +278,8 @@ pub fn flight_words(flight: &Flight, language: Language) -> String {
             let who = node_name(*who);
             say!(
                 language,
-                "The offer of {who}, on its way from {from} to {to}",
-                "A oferta de {who}, a caminho, de {from} para {to}"
+                "The offer of {who} to help, on its way from {from} to {to}",
+                "A oferta de ajuda de {who}, a caminho, de {from} para {to}"
             )
         }
         Cargo::Results(_) => {
@@ -278,7 +288,7 @@ pub fn flight_words(flight: &Flight, language: Language) -> String {
         Cargo::Again(_) => say!(
             language,
             "{atoms} from {from} to {to}, to be traced once more",
-            "{atoms} de {from} para {to}, para calcular de novo"
+            "{atoms} de {from} a {to}, para calcular de novo"
         ),
         Cargo::Sleeps => say!(language, "{from} tells {to} that it sleeps", "{from} diz a {to} que dorme"),
         Cargo::Wake => say!(language, "{from} wakes {to}", "{from} acorda {to}"),

@@ -99,8 +99,13 @@ pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
                 if from == who =>
             {
                 let name = node_name(*who);
-                let words =
-                    || say!(language, "The first offer: {name} has finished", "A primeira oferta: {name} terminou");
+                let words = || {
+                    say!(
+                        language,
+                        "The first offer of help: {name} has finished",
+                        "A primeira oferta de ajuda: {name} terminou"
+                    )
+                };
                 offer.get_or_insert_with(|| mark(words(), Subject::Message(*id)));
             }
             RecordKind::Sent {
@@ -128,13 +133,13 @@ pub fn landmarks(log: &RunLog, language: Language) -> Vec<Landmark> {
                     biggest = Some((atoms, mark(words, Subject::Message(*id))));
                 }
             }
-            RecordKind::AtomDone { node, atom, cost } if dearest.as_ref().is_none_or(|(most, _)| cost > most) => {
-                let (by, took) = (node_name(*node), duration(*cost, language));
+            RecordKind::AtomDone { atom, cost, .. } if dearest.as_ref().is_none_or(|(most, _)| cost > most) => {
+                let took = duration(*cost, language);
                 let name = count(atom.saturating_add(1));
                 let words = say!(
                     language,
-                    "The costliest atom: {name}, {took} of {by}'s time",
-                    "O átomo mais caro: {name}, {took} do tempo de {by}"
+                    "The costliest atom: {took} for atom {name}",
+                    "O átomo mais caro: {took} do átomo {name}"
                 );
                 dearest = Some((*cost, mark(words, Subject::Atom(*atom))));
             }
@@ -244,7 +249,7 @@ mod tests {
         log.add(vec![retires(9e3, 1)]);
         let found = landmarks(&log, language);
         let says = |start: &str| found.iter().find(|mark| mark.words.starts_with(start)).map(|mark| mark.subject);
-        assert!(matches!(says("The first offer: "), Some(Subject::Message(_))));
+        assert!(matches!(says("The first offer of help: "), Some(Subject::Message(_))));
         assert!(matches!(says("The biggest transfer: "), Some(Subject::Message(_))));
         assert!(matches!(says("The first machine to retire: "), Some(Subject::Node(0))));
         assert_eq!(says("The slowest machine: 5, "), Some(Subject::Node(4)));

@@ -71,7 +71,11 @@ pub(crate) fn timeline_legend(lanes: &Lanes, window: &TimeWindow, language: Lang
         ),
         (
             is_drawn(messages(Load::Offer)),
-            word!(language, "Pale lines between lanes: offers.", "Linhas claras entre pistas: ofertas."),
+            word!(
+                language,
+                "Pale lines between lanes: offers of help.",
+                "Linhas claras entre pistas: ofertas de ajuda."
+            ),
         ),
         (
             is_drawn(ticks),

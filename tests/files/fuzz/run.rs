@@ -145,7 +145,7 @@ fn draw(state: &RunState, narrator: &Narrator, outcome: Option<Summary>, now: Ti
         work_split_words(state, language)
     );
     said += &narrator.sentence(state, now, language);
-    narrator.earlier(state, now).for_each(|(_, event)| said += &event.sentence(language));
+    narrator.other_events(state, now).for_each(|(_, event)| said += &event.sentence(language));
     said += &outcome.map(|outcome| result_words(state, &outcome, language)).unwrap_or_default();
     assert!(!said.contains("NaN") && !said.contains("inf,"), "{said}");
     assert_eq!(node_rows(state, now).len(), state.nodes().len());

@@ -173,7 +173,7 @@ fn picture(
         }
         let (done, all) = (run.snapshot().state.done(), run.snapshot().state.atoms());
         response.widget_info(|| {
-            let name = &run.name;
+            let name = run.name(language);
             let share = percent(done, all);
             let text =
                 say!(language, "{letter}, {name}: {share} of the picture", "{letter}, {name}: {share} da imagem");

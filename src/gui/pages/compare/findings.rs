@@ -110,14 +110,15 @@ impl Findings {
         ui.label(RichText::new(heading).font(theme::strong(theme::BODY)).color(look.text));
         ui.add_space(GRID / 2.0);
         ScrollArea::vertical().id_salt("why").auto_shrink(false).show(ui, |ui| {
+            let names = [one, other].map(|run| run.name(language));
             let text = match (&one.budget, &other.budget) {
                 (Some(first), Some(second)) => compare_runs(
-                    NamedBudget { name: &one.name, budget: first },
-                    NamedBudget { name: &other.name, budget: second },
+                    NamedBudget { name: &names[0], budget: first },
+                    NamedBudget { name: &names[1], budget: second },
                     language,
                 ),
                 _ => {
-                    let name = if one.budget.is_none() { &one.name } else { &other.name };
+                    let name = &names[usize::from(one.budget.is_some())];
                     say!(
                         language,
                         "{name} never ends: a stopped machine keeps its atoms.",

@@ -103,7 +103,7 @@ fn run_lanes(
         painter.add(Shape::convex_polygon(above.into(), look.text, Stroke::NONE));
     }
     let response = ui.interact(strip, ui.scope_id().with(("lanes", column.id)), Sense::click_and_drag());
-    widgets::describe(&response, &run.name, || budget_text(run, language));
+    widgets::describe(&response, &run.name(language), || budget_text(run, language));
     let at = response.interact_pointer_pos()?;
     Some(f64::from(((at.x - strip.left()) / strip.width()).clamp(0.0, 1.0)))
 }
@@ -132,7 +132,7 @@ fn time_axis(painter: &Painter, all: Rect, window: &TimeWindow, look: Look, lang
 
 /// Describes the time budget of a run for screen readers.
 fn budget_text(run: &ComparedRun, language: Language) -> String {
-    run.budget.as_ref().map_or_else(String::new, |budget| time_budget_words(&[(&run.name, budget)], language))
+    run.budget.as_ref().map_or_else(String::new, |budget| time_budget_words(&[(&run.name(language), budget)], language))
 }
 
 /// Returns the legend; it explains changes only if there are any.

@@ -137,7 +137,8 @@ impl Compare {
     /// Returns names and makespans of the finished runs, for tests.
     pub fn runs(&self) -> Vec<(String, Option<Duration>)> {
         let runs = self.columns.iter().filter_map(|column| column.run.as_ref());
-        runs.map(|run| (run.name.clone(), run.budget.as_ref().map(|budget| budget.makespan))).collect()
+        let language = Language::English;
+        runs.map(|run| (run.name(language), run.budget.as_ref().map(|budget| budget.makespan))).collect()
     }
 
     /// Returns the finished runs for an export; `None` until there is one.
@@ -277,10 +278,9 @@ impl Compare {
 
     /// Starts the job that runs the trials without a run.
     fn run(&mut self, session: &mut Session) {
-        let language = session.language();
         let Some(subject) = &self.subject else { return };
         let missing = self.columns.iter().filter(|column| column.run.is_none());
-        let missing = missing.map(|column| (column.id, column.name(language), column.trial.clone())).collect();
+        let missing = missing.map(|column| (column.id, column.changes.clone(), column.trial.clone())).collect();
         let picture = match &self.picture {
             Some(picture) => PictureSource::Traced(Arc::clone(picture)),
             None => {

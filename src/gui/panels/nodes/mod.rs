@@ -15,7 +15,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::view::{
-    Activity, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, node_rows, rate_number,
+    Activity, Highlight, NodeRow, Subject, count, fraction, node_name, node_rows, rate_number, row_words,
 };
 use row_layout::{HEAD_HEIGHT_PT, RowGrid, RowLayout};
 
@@ -102,7 +102,7 @@ fn background(
     let response = ui.interact(layout.row, ui.scope_id().with(("row", row.node)), Sense::click());
     widgets::describe(&response, &say!(language, "Machine {name}", "Máquina {name}"), || {
         let selected = if is_selected { word!(language, ", selected", ", selecionada") } else { "" };
-        let (done, left, activity) = (row.done, row.left, activity_word(row.activity, language));
+        let (done, left, activity) = (row.done, row.left, row_words(row, language));
         say!(
             language,
             "{done} atoms done, {left} left, {activity}{selected}",
@@ -143,7 +143,11 @@ fn figures(ui: &Ui, layout: &RowLayout, row: &NodeRow, session: &Session, look: 
     number(layout.idle, fraction(row.idle), look.text);
     let is_calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::NoBand | Activity::Done);
     let now = pos2(layout.activity, y);
-    painter.text(now, Align2::LEFT_CENTER, activity_word(row.activity, language), theme::regular(size), ink(!is_calm));
+    let words = row_words(row, language);
+    let layout_words = |size| painter.layout_no_wrap(words.clone(), theme::regular(size), ink(!is_calm));
+    let galley = Some(layout_words(size)).filter(|galley| now.x + galley.size().x <= layout.row.right());
+    let galley = galley.unwrap_or_else(|| layout_words(theme::SMALL));
+    painter.galley(now - vec2(0.0, galley.size().y / 2.0), galley, look.text);
     if let Some(bar) = layout.bar {
         let upto = |share: f32| bar.with_max_x(bar.left() + bar.width() * share);
         painter.rect_filled(upto(row.left_bar), 4.0, colour.gamma_multiply(0.28));

@@ -11,6 +11,8 @@ use crate::view::narration::happening::Happening;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct EventLog {
     pub(super) events: VecDeque<ListedEvent>,
+    /// Number of events that were dropped because newer ones came.
+    dropped: usize,
 }
 
 /// An event of the list.
@@ -71,8 +73,13 @@ const JOIN_TIME: Duration = Duration::from_secs(3);
 
 impl EventLog {
     /// The events and their times, the newest last.
-    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
+    pub(crate) fn iter(&self) -> impl DoubleEndedIterator<Item = (Time, &Happening)> + ExactSizeIterator {
         self.events.iter().map(|event| (event.at, &event.happening))
+    }
+
+    /// Number of events so far, the dropped ones included.
+    pub(crate) fn so_far(&self) -> usize {
+        self.dropped + self.events.len()
     }
 
     /// The last change that the user made to the run.
@@ -126,6 +133,7 @@ impl EventLog {
         self.events.insert(index, ListedEvent { at, kind, happening });
         if self.events.len() > MAX_EVENTS {
             self.events.pop_front();
+            self.dropped += 1;
         }
     }
 }

@@ -64,7 +64,7 @@ fn list_names_the_slow_machine_and_its_transfers() {
         events.apply(&record, &state);
     }
     let sentences = sentences(&events);
-    assert_eq!(sentences[0], "The parent gives each of 3 machines an equal band of the picture");
+    assert_eq!(sentences[0], "The parent gives each of 3 emulated machines an equal band of the picture");
     assert_eq!(sentences[1], "1 has finished its band and offers help round the ring");
     assert!(sentences.iter().any(|event| event.starts_with("3, slow at 10 %, gave ")), "{sentences:#?}");
 }

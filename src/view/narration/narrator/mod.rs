@@ -8,7 +8,6 @@ use crate::language::Language;
 use crate::picture::atoms_in;
 use crate::record::{Record, RecordKind};
 use crate::time::Time;
-use crate::view::narration::event_sentences::before_virtual_time;
 use crate::view::narration::events::{EventLog, is_band_done, waiting_messages};
 use crate::view::narration::failure::Failure;
 use crate::view::narration::happening::{Happening, Retirement};
@@ -87,22 +86,35 @@ impl Narrator {
         match self.shown_at(now, state.rate()) {
             Some(event) => event.happening.sentence(language),
             None if state.finished().is_some() => Happening::Complete.sentence(language),
-            // The records of virtual time begin when all costs are known.
-            _ if state.is_virtual && state.head() == Time::ZERO => before_virtual_time(language).into(),
-            _ => status_sentence(state, language),
+            None => status_sentence(state, language),
         }
+    }
+
+    /// Returns the time of the event whose sentence is shown at `now`; `None` while the status of the run is shown.
+    pub fn event_time(&self, state: &RunState, now: Time) -> Option<Time> {
+        self.shown_at(now, state.rate()).map(|event| event.at)
     }
 
     /// The last events and their times, the newest last. Records that belong together are one event: a dragged slider,
     /// small transfers of one machine, machines that retire.
-    pub fn events(&self) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
+    pub fn events(&self) -> impl DoubleEndedIterator<Item = (Time, &Happening)> + ExactSizeIterator {
         self.events.iter()
     }
 
-    /// The events before the sentence that is shown at `now`.
-    pub fn earlier(&self, state: &RunState, now: Time) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
-        let event = self.shown_at(now, state.rate()).map(|event| event.at);
-        self.events().filter(move |(at, _)| event.is_none_or(|event| *at < event))
+    /// The last events but the one whose sentence is shown at `now`: the events before it, and those after it that
+    /// have to wait because it is still read.
+    pub fn other_events(&self, state: &RunState, now: Time) -> impl DoubleEndedIterator<Item = (Time, &Happening)> {
+        let shown = self.shown_at(now, state.rate());
+        let is_shown = |(at, listed): &(Time, &Happening)| {
+            shown.is_some_and(|event| event.at == *at && event.happening.tells_of(listed))
+        };
+        let shown = self.events().rposition(|event| is_shown(&event));
+        self.events().enumerate().filter(move |(index, _)| Some(*index) != shown).map(|(_, event)| event)
+    }
+
+    /// Number of events so far, with those that are no longer kept.
+    pub fn events_so_far(&self) -> usize {
+        self.events.so_far()
     }
 
     /// Returns the event that is shown at `now`, if it is fresh, at a playback rate of `rate` run seconds per wall

@@ -1,10 +1,13 @@
 //! Tests of the sentences that are read while a run goes on.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use super::*;
-use crate::balance::{Rules, Strategy};
+use crate::balance::{NodeId, Rules, Strategy};
 use crate::runlog::{Driver, Header};
+use crate::scenario::Command;
+use crate::sim::Sim;
 use crate::view::tests::sample_runs;
 
 #[test]
@@ -19,9 +22,9 @@ fn slow_machine_is_told_of() {
     }
     heard.dedup();
     let says = |part: &str| heard.iter().any(|sentence| sentence.contains(part));
-    assert!(says("The parent gives each of 3 machines an equal band"), "{heard:#?}");
+    assert!(says("The parent gives each of 3 emulated machines an equal band"), "{heard:#?}");
     assert!(says("3 machines compute; 3 is slow (10 %)"), "{heard:#?}");
-    assert!(says("from 3, which is slow (10 %)"), "{heard:#?}");
+    assert!(says("from 3 (slow, 10 %): "), "{heard:#?}");
     assert_eq!(heard.last().map(String::as_str), Some("The picture is complete"));
     assert!(heard.iter().all(|sentence| sentence.chars().count() <= 95), "{heard:#?}");
 }
@@ -83,10 +86,10 @@ fn transfer_of_twice_the_atoms_outweighs_another() {
         narrator.apply(&Record { at, kind }, &state);
         narrator.sentence(&state, at, language)
     };
-    assert!(say(0, 1, 20).ends_with("takes over 20 atoms from 2, which is still busy"));
-    assert!(say(100, 1, 30).contains("takes over 20 atoms"));
-    assert!(say(200, 2, 200).ends_with("takes over 200 atoms from 3, which is slow (10 %)"));
-    assert!(say(300, 1, 20).contains("takes over 200 atoms"));
+    assert!(say(0, 1, 20).contains(" takes all 20 atoms that wait from 2: "));
+    assert!(say(100, 1, 30).contains("takes all 20 atoms"));
+    assert!(say(200, 2, 200).contains("takes all 200 atoms that wait from 3 (slow, 10 %): "));
+    assert!(say(300, 1, 20).contains("takes all 200 atoms"));
 }
 
 #[test]
@@ -147,7 +150,7 @@ fn parts_of_a_farm_are_one_event() {
     assert_heard(
         &heard,
         &[
-            "The parent gives each of 5 machines a first part: 25 atoms",
+            "The parent gives each of 5 emulated machines a first part: 25 atoms",
             " asks the parent for more and gets 25 atoms",
             " asks for more, but the parent has no more: ",
         ],
@@ -173,7 +176,7 @@ fn with_fixed_bands_all_wait_for_the_slow_machine() {
     assert_heard(
         &heard,
         &[
-            "The parent gives each of 5 machines an equal band",
+            "The parent gives each of 5 emulated machines an equal band",
             "1 has finished and waits: nobody shares with it",
             "All wait for 5, which is slow (10 %): ",
         ],
@@ -208,9 +211,78 @@ fn thefts_are_told_of() {
     assert_eq!(listed, ["3 steals 96 atoms from 1", "3 steals few atoms at a time from 2: 1 atom"]);
 }
 
+/// The state of a ring in which each machine has nine atoms.
+fn ring_of(machines: NodeId) -> RunState {
+    let mut state = RunState::new(&sample_runs::header(&vec![1.0; usize::from(machines)], 9 * u32::from(machines)));
+    for node in 0..machines {
+        let (id, to, at) = (u64::from(node), Party::Node(node), Time::ZERO);
+        let message = Message::Band(9 * u32::from(node)..9 * u32::from(node) + 9);
+        let from = Party::Parent;
+        state.apply(&Record { at, kind: RecordKind::Sent { id, from, to, message, bytes: 0, arrives: at } });
+        state.apply(&Record { at, kind: RecordKind::Received { id, by: to } });
+    }
+    state
+}
+
 #[test]
-fn sentence_exists_before_virtual_time_begins() {
+fn list_has_every_event_but_the_one_of_the_sentence() {
     let language = Language::English;
-    let state = RunState::new(&sample_runs::header(&[1.0, 1.0], 9));
-    assert_eq!(Narrator::default().sentence(&state, Time::ZERO, language), before_virtual_time(language));
+    let (mut state, mut narrator) = (ring_of(3), Narrator::default());
+    let at = |ms: u64| Time(ms * 1_000_000);
+    for (ms, kind) in [
+        (0, RecordKind::Paused { node: 2 }),
+        (5000, RecordKind::Retired { node: 0 }),
+        (9000, RecordKind::SpeedSet { node: 1, speed: 0.5 }),
+        (9200, RecordKind::Retired { node: 1 }),
+    ] {
+        let record = Record { at: at(ms), kind };
+        state.apply(&record);
+        narrator.apply(&record, &state);
+    }
+    let now = at(9300);
+    assert!(narrator.sentence(&state, now, language).starts_with("Machine 2 now runs at 50 %"));
+    assert_eq!((narrator.event_time(&state, now), narrator.events_so_far()), (Some(at(9000)), 4));
+    let listed: Vec<Time> = narrator.other_events(&state, now).map(|(at, _)| at).collect();
+    assert_eq!(listed, [at(0), at(5000), at(9200)]);
+    assert_eq!((narrator.event_time(&state, at(30_000)), narrator.other_events(&state, at(30_000)).count()), (None, 4));
+}
+
+#[test]
+fn faster_machine_is_promised_work_only_while_there_is_some() {
+    let language = Language::English;
+    let effect = |state: &RunState| {
+        let sentence = Happening::speed(state, 0, 0.1, 1.0).sentence(language);
+        sentence.split_once(": ").map(|(_, effect)| effect.to_owned())
+    };
+    let mut state = ring_of(2);
+    assert_eq!(effect(&state).as_deref(), Some("it can take more work"));
+    let trace = |state: &mut RunState, atoms: Range<u32>, node| {
+        for atom in atoms {
+            let kind = RecordKind::AtomDone { node, atom, cost: Duration::ZERO };
+            state.apply(&Record { at: Time::from_secs(1.0), kind });
+        }
+    };
+    trace(&mut state, 9..17, 1);
+    assert_eq!(effect(&state).as_deref(), Some("it will trace its last atoms sooner"));
+    trace(&mut state, 0..9, 0);
+    assert_eq!(effect(&state), None);
+    state.apply(&Record { at: Time::from_secs(2.0), kind: RecordKind::Retired { node: 0 } });
+    assert_eq!(effect(&state).as_deref(), Some("it has retired and takes no more work"));
+}
+
+#[test]
+fn neighbour_that_answers_first_is_named() {
+    let language = Language::English;
+    let header = sample_runs::header(&[0.2, 1.0, 1.0], 900);
+    let (mut state, mut narrator, mut heard) = (RunState::new(&header), Narrator::default(), BTreeSet::new());
+    let script = [(Time::from_secs(1.0), Command::Pause { node: 2, paused: true })];
+    Sim::new(&header, &script, |_| sample_runs::COST).run(&mut |record| {
+        state.apply(&record);
+        narrator.apply(&record, &state);
+        heard.insert(narrator.sentence(&state, record.at, language));
+    });
+    let says = |begins: &str, ends: &str| heard.iter().any(|said| said.starts_with(begins) && said.ends_with(ends));
+    assert!(says("Machine 3 is paused: 1 answers offers first, then the others take over its work", ""), "{heard:#?}");
+    let with = "paused since 1.0 s with 204 atoms";
+    assert!(says("2 takes ", &format!(" from 1, so its offer does not reach 3, {with}")), "{heard:#?}");
 }

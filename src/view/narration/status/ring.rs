@@ -7,6 +7,7 @@ use super::phrases::{
 use super::stopped::{all_stand_still, atoms_in_queues, atoms_left, machines_stand_still, restart_words, stop_reason};
 use crate::balance::{NodeId, PIPE_ATOMS};
 use crate::language::{Language, say, word};
+use crate::view::narration::unreached::Unreached;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, fraction, names, node_name};
 
@@ -17,6 +18,9 @@ pub(crate) fn ring_status(state: &RunState, language: Language) -> String {
     if let Some(why) = failure_words(state, language).filter(|_| !busy.is_empty()) {
         let compute = computing(busy.len(), state.nodes().len(), word!(language, "machines", "máquinas"), language);
         return say!(language, "{compute}; {why}, and nobody notices", "{compute}; {why}, e ninguém percebe");
+    }
+    if let Some(unreached) = Unreached::of(state).filter(|_| !busy.is_empty()) {
+        return unreached.sentence(language);
     }
     match *busy {
         [] if state.has_atoms_under_way() => atoms_on_their_way(language),
@@ -52,13 +56,13 @@ fn alone(state: &RunState, (node, last): Machine<'_>, language: Language) -> Str
         _ if retired.len() == state.nodes().len() - 1 => match &*retired {
             [_] => say!(
                 language,
-                "{name} still has {left}, but {who} has retired: a retired machine makes no more offers",
-                "{name} ainda tem {left}, mas {who} foi dispensada: máquina dispensada não faz mais ofertas"
+                "{name} still has {left}, but {who} has retired: a retired machine offers no more help",
+                "{name} ainda tem {left}, mas {who} foi dispensada: máquina dispensada não oferece mais ajuda"
             ),
             _ => say!(
                 language,
-                "{name} still has {left}, but {who} have retired: a retired machine makes no more offers",
-                "{name} ainda tem {left}, mas {who} foram dispensadas: máquina dispensada não faz mais ofertas"
+                "{name} still has {left}, but {who} have retired: a retired machine offers no more help",
+                "{name} ainda tem {left}, mas {who} foram dispensadas: máquina dispensada não oferece mais ajuda"
             ),
         },
         _ => last_computing((node, last), language),

@@ -58,8 +58,9 @@ fn machine_that_stands_still_gives_away_its_queue_but_not_its_pipe() {
     let others = [(5, 1.0), (5, 1.0)];
     let status = |left, speed| status(&[others[0], others[1], (left, speed)], &[], language);
     let two = "2 of 3 machines compute; 3";
-    assert_eq!(status(50, PAUSED), format!("{two} is paused: its 50 atoms go to machines that offer help"));
-    assert_eq!(status(50, 0.0), format!("{two} is stopped (0 %): its 50 atoms go to machines that offer help"));
+    let first = "no offer reaches it, because 1 answers first";
+    assert_eq!(status(50, PAUSED), format!("3 has been paused since the beginning with 50 atoms: {first}"));
+    assert_eq!(status(50, 0.0), format!("3 has been stopped since the beginning with 50 atoms: {first}"));
     assert_eq!(status(2, PAUSED), format!("{two} is paused and keeps the 2 atoms in its pipe"));
     assert_eq!(status(1, 0.0), format!("{two} is stopped (0 %) and keeps the atom in its pipe"));
 }
@@ -68,7 +69,11 @@ fn machine_that_stands_still_gives_away_its_queue_but_not_its_pipe() {
 fn machines_that_stand_still_are_named_together() {
     let language = Language::English;
     let status = |left| status(&[(5, 1.0), (left, PAUSED), (left, 0.0)], &[], language);
-    assert_eq!(status(40), "Only 1 computes; 2 and 3 stand still: their 80 atoms go to machines that offer help");
+    // An offer of 1 goes to 3, which answers it first.
+    assert_eq!(
+        status(40),
+        "2 has been paused since the beginning with 40 atoms: no offer reaches it, because 3 answers first"
+    );
     assert_eq!(status(2), "Only 1 computes; 2 and 3 stand still and keep the atoms in their pipes");
 }
 
@@ -77,11 +82,11 @@ fn retired_machines_do_not_help() {
     let language = Language::English;
     assert_eq!(
         status(&[(0, 1.0), (0, 1.0), (0, 1.0), (0, 1.0), (40, 0.05)], &[0, 1, 2, 3], language),
-        "5 still has 40 atoms, but 1, 2, 3 and 4 have retired: a retired machine makes no more offers"
+        "5 still has 40 atoms, but 1, 2, 3 and 4 have retired: a retired machine offers no more help"
     );
     assert_eq!(
         status(&[(0, 1.0), (40, 1.0)], &[0], language),
-        "2 still has 40 atoms, but 1 has retired: a retired machine makes no more offers"
+        "2 still has 40 atoms, but 1 has retired: a retired machine offers no more help"
     );
     assert_eq!(status(&[(0, 1.0), (0, 1.0), (40, 1.0)], &[0], language), "Only 3 still computes: 40 atoms left");
     assert_eq!(

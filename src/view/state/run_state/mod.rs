@@ -14,7 +14,7 @@ use super::node_state::{NodeState, Parcels};
 use crate::balance::{NodeId, Party, Remedies, Remedy, Scheduler};
 use crate::picture::{Atom, Division};
 use crate::record::{Record, RecordKind};
-use crate::runlog::{Driver, Header, LinkSettings, OwnLink};
+use crate::runlog::{Header, LinkSettings, OwnLink};
 use crate::time::Time;
 
 /// State of a run after some of its records.
@@ -42,8 +42,6 @@ pub struct RunState {
     pub(crate) scheduler: Scheduler,
     /// Differences from the article's ring.
     remedies: Remedies,
-    /// Whether the run is in virtual time, so that the whole picture is traced before the run begins.
-    pub(crate) is_virtual: bool,
     link: LinkSettings,
     /// Time for which the parent is busy with each message.
     pub(crate) handling: Duration,
@@ -88,7 +86,6 @@ impl RunState {
             division: header.division,
             scheduler: header.scheduler(),
             remedies,
-            is_virtual: header.driver == Driver::Sim,
             link: header.link.clone(),
             handling: header.handling,
             arrived: Arrived::default(),

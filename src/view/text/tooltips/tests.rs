@@ -20,7 +20,7 @@ fn node_facts_follow_the_run() {
     assert_eq!(value(&slow, "gave"), format!("{} atoms in {} parcels", given.atoms, given.count));
     assert_eq!((value(&slow, "state"), value(&slow, "speed")), ("done", "10 %"));
     assert_eq!((value(&slow, "left"), value(&slow, "in the pipe")), ("0 atoms", "nothing"));
-    assert!(value(&slow, "offers").starts_with(&format!("{} made, ", state.nodes()[2].offers)));
+    assert!(value(&slow, "offers of help").starts_with(&format!("{} made, ", state.nodes()[2].offers)));
     assert!(node_words(&state, 3, state.head(), language).is_empty());
 }
 
@@ -104,5 +104,5 @@ fn each_message_is_described() {
     for part in ["100 atoms for 3, its band", "2 atoms that 2 has traced, for the parent", " atoms from 3 to "] {
         assert!(told.iter().any(|told| told.contains(part)), "{part}: {told:#?}");
     }
-    assert!(told.contains("The offer of 1, on its way from 1 to 3"), "{told:#?}");
+    assert!(told.contains("The offer of 1 to help, on its way from 1 to 3"), "{told:#?}");
 }
