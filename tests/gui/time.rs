@@ -202,7 +202,7 @@ fn rate_of_time_goes_down_and_up() {
 fn virtual_time_runs_at_the_fastest_rate() {
     let mut window = open(SIZE);
     press(&mut window, "Set up");
-    press(&mut window, "Virtual");
+    switch_to_virtual_time(&mut window);
     type_number(&mut window, "Seconds of the run", "300");
     for _ in 0..30 {
         window.key_press(Key::Period);

@@ -91,6 +91,12 @@ fn sentence(ui: &mut Ui, session: &Session, look: Look) {
     let language = session.language();
     let stage = session.stage();
     let sentence = match &stage.phase {
+        Phase::Preparing if session.loading().is_some_and(|loading| loading.traced.share > 0.0) => word!(
+            language,
+            "The run begins when its picture is traced",
+            "A execução começa quando sua imagem está calculada"
+        )
+        .to_owned(),
         Phase::Preparing => word!(
             language,
             "Reading and compiling the scene, and estimating its cost …",

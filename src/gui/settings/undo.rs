@@ -59,6 +59,16 @@ impl UndoHistory {
         Some(after)
     }
 
+    /// Undoes all changes since the settings were `before`, if the history has these, and keeps `now` for redo.
+    pub fn undo_to(&mut self, before: &Settings, now: &Settings) {
+        self.gesture = None;
+        if let Some(index) = self.past.iter().rposition(|settings| settings == before) {
+            self.future.push(now.clone());
+            self.future.extend(self.past.drain(index + 1..).rev());
+            self.past.pop();
+        }
+    }
+
     /// Whether there is a change to undo.
     pub fn can_undo(&self) -> bool {
         !self.past.is_empty()
@@ -103,6 +113,16 @@ mod tests {
         assert_eq!(history.undo(&with_latency(2)), Some(with_latency(1)));
         history.push(with_latency(1), Gesture::Once);
         assert!(!history.can_redo());
+    }
+
+    #[test]
+    fn several_changes_are_undone_at_once() {
+        let mut history = UndoHistory::default();
+        (0..4).for_each(|latency| history.push(with_latency(latency), Gesture::Once));
+        history.undo_to(&with_latency(9), &with_latency(4));
+        assert_eq!(history.past.len(), 4, "these settings are not in the history");
+        history.undo_to(&with_latency(1), &with_latency(4));
+        assert_eq!([2, 3, 4].map(|_| history.redo(&with_latency(1)).unwrap().latency), [2.0, 3.0, 4.0]);
     }
 
     #[test]
