@@ -8,7 +8,7 @@ use super::job_result::{FileChange, Prepared, Recorded};
 use super::opening::{Opening, unreadable_scene};
 use super::run_source::RunSource;
 use super::stage::{Phase, Stage};
-use super::{Notice, NoticeCause, NoticeKind, Session};
+use super::{DEMONSTRATION, Notice, NoticeCause, NoticeKind, Session};
 use crate::driver::Retrace;
 use crate::language::say;
 use crate::output::is_same_file;
@@ -193,9 +193,6 @@ impl Session {
             self.remember(path.clone());
         }
         self.jobs.watch(path, language);
-        if !self.is_camera_moving() {
-            self.scene_camera = Some(prepared.opened.scene.camera);
-        }
         self.prepared = Some(prepared);
         self.recorded = None;
         self.restart();
@@ -212,7 +209,7 @@ impl Session {
         self.release_run();
         if self.stage.phase == Phase::Preparing {
             // The error is still to be read.
-            self.load("ten-objects".into(), false, || Opening::read("ten-objects"));
+            self.load(DEMONSTRATION.into(), false, || Opening::read(DEMONSTRATION));
         }
         self.trouble_with_file(say!(language, "Not opened. {why}", "Não aberto. {why}"));
     }

@@ -26,15 +26,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::settings::undo::{Gesture, UndoHistory};
+use super::settings::undo::{Gesture, Step, UndoHistory};
 use super::settings::{Settings, milliseconds};
 use crate::balance::NodeId;
 use crate::driver::{PictureCache, cores};
-use crate::language::{Language, say};
+use crate::language::{Language, say, word};
 use crate::palette::Rgb;
 use crate::runlog::Header;
 use crate::scenario::Command;
-use crate::scene::{Camera, Opened};
+use crate::scene::{Opened, built_in};
 use crate::time::Time;
 
 pub use comparing::ComparisonSubject;
@@ -74,8 +74,6 @@ pub struct Session {
     /// The pictures that were traced last for virtual time.
     pictures: Arc<PictureCache>,
     inspecting: Inspecting,
-    /// The camera of the scene file.
-    scene_camera: Option<Camera>,
     camera_move: Option<CameraMove>,
     /// Number of preview jobs in progress.
     camera_jobs: usize,
@@ -104,6 +102,9 @@ pub struct Session {
     clock: f64,
 }
 
+/// Name of the built-in scene of the demonstration.
+pub const DEMONSTRATION: &str = "ten-objects";
+
 impl Session {
     /// Creates a session with an empty stage; the caller has to open a scene.
     pub fn new(settings: Settings, log_path: Option<PathBuf>, ctx: &egui::Context, ground: Rgb) -> Self {
@@ -119,7 +120,6 @@ impl Session {
             holds_run: false,
             pictures: Arc::default(),
             inspecting: Inspecting::default(),
-            scene_camera: None,
             camera_move: None,
             camera_jobs: 0,
             jobs: Jobs::new(ctx.clone()),
@@ -236,8 +236,8 @@ impl Session {
     /// Undoes the last change of the settings.
     pub fn undo(&mut self) {
         let language = self.language;
-        if let Some(settings) = self.history.undo(&self.settings) {
-            let before = self.apply(settings);
+        if let Some(step) = self.history.undo(&self.settings, self.opened_scene()) {
+            let before = self.apply_step(step);
             let now = self.settings.difference(&before, language);
             self.note(say!(language, "Undone. Now: {now}", "Desfeito. Agora: {now}"));
         }
@@ -246,10 +246,29 @@ impl Session {
     /// Makes the undone change again.
     pub fn redo(&mut self) {
         let language = self.language;
-        if let Some(settings) = self.history.redo(&self.settings) {
-            let before = self.apply(settings);
+        if let Some(step) = self.history.redo(&self.settings, self.opened_scene()) {
+            let before = self.apply_step(step);
             let now = self.settings.difference(&before, language);
             self.note(say!(language, "Redone. Now: {now}", "Refeito. Agora: {now}"));
+        }
+    }
+
+    /// Brings back the demonstration: the first settings, its scene and its camera, in one change.
+    pub fn show_demonstration(&mut self) {
+        let (language, settings) = (self.language, Settings::default());
+        let Some(present) = self.opened_scene().filter(|_| !self.is_recorded()) else { return };
+        let text = built_in(DEMONSTRATION).unwrap_or_default();
+        match Opened::from_text(DEMONSTRATION, text) {
+            Ok(opened) if present.path.is_some() || present.text != opened.text => {
+                self.history.push_scene(self.settings.clone(), present);
+                self.apply_step(Step { settings, scene: Some(Arc::new(opened)) });
+                self.note(word!(
+                    language,
+                    "Back to the demonstration; Ctrl Z undoes it",
+                    "De volta à demonstração; Ctrl Z desfaz"
+                ));
+            }
+            _ => self.change(Gesture::Once, |now| *now = settings),
         }
     }
 
@@ -288,6 +307,10 @@ impl Session {
     /// Returns the compiled scene of live runs.
     pub fn prepared(&self) -> Option<&Prepared> {
         self.prepared.as_ref()
+    }
+
+    fn opened_scene(&self) -> Option<Arc<Opened>> {
+        self.prepared.as_ref().map(|prepared| Arc::clone(&prepared.opened))
     }
 
     /// Returns the scene of live runs.
@@ -384,6 +407,17 @@ impl Session {
     /// Returns how many measurements have not ended, cancelled ones included; for tests.
     pub fn measurements(&self) -> usize {
         self.measurements
+    }
+
+    /// Applies a step of the undo history. Returns the settings before.
+    fn apply_step(&mut self, Step { settings, scene }: Step) -> Settings {
+        let Some(scene) = scene else { return self.apply(settings) };
+        self.return_to_present();
+        let before = std::mem::replace(&mut self.settings, settings);
+        self.settings_before.get_or_insert_with(|| before.clone());
+        self.camera_move = None;
+        self.load_scene(scene);
+        before
     }
 
     /// Applies new settings to the run, restarting it if needed. Returns the settings before.

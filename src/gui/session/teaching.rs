@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::Session;
 use super::job_result::{JobResult, PreparedLesson, Recorded};
 use super::jobs::Jobs;
 use super::preview::preview_pixels;
 use super::tracing::{TracingJob, TracingProgress};
+use super::{DEMONSTRATION, Session};
 use crate::driver::PictureCache;
 use crate::language::{Language, say};
 use crate::lesson::{Lesson, LessonError};
@@ -53,7 +53,7 @@ impl Session {
         match before {
             Some(recorded) => self.play(recorded),
             None if self.prepared.is_some() => self.restart_live(),
-            None => self.open("ten-objects"),
+            None => self.open(DEMONSTRATION),
         }
     }
 }
