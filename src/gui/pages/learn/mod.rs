@@ -158,9 +158,7 @@ impl Learn {
             UserCommand::Dolly(false) if progress.is_over() => self.other_lessons(session),
             UserCommand::Select(number) if progress.waits() => progress.answer(number.into(), session),
             // What happens next stays hidden until the question is answered.
-            UserCommand::Dolly(false) | UserCommand::Pause | UserCommand::Live | UserCommand::Step(_, true)
-                if progress.waits() =>
-            {
+            _ if progress.waits() && tells_more(command, session) => {
                 session.note(word!(
                     language,
                     "First answer the question: press the number of an answer or click it",
@@ -274,6 +272,20 @@ impl Learn {
         if let Some(why) = &self.trouble {
             ui.label(RichText::new(why).font(theme::regular(theme::BODY)).color(look.trouble));
         }
+    }
+}
+
+/// Whether the command shows more of the run than the shown moment, or another run.
+fn tells_more(command: UserCommand, session: &Session) -> bool {
+    match command {
+        UserCommand::Dolly(false)
+        | UserCommand::Pause
+        | UserCommand::Live
+        | UserCommand::Restart
+        | UserCommand::Step(_, true) => true,
+        UserCommand::Arrow([1, 0]) => session.inspected_pixel().is_none(),
+        UserCommand::Jump(records, _) => records > session.stage().records_shown(),
+        _ => false,
     }
 }
 

@@ -109,10 +109,18 @@ fn next_text(progress: &LessonProgress, language: Language) -> &'static str {
     }
 }
 
-/// Returns the title of the lesson and the number of the step.
+/// Returns the title of the lesson and the number of the step, and while a question waits, the keys that answer it:
+/// they select no machine then.
 fn heading(progress: &LessonProgress, language: Language) -> String {
     let (title, number, all) = (progress.title(language), progress.step() + 1, progress.steps());
-    say!(language, "{title} · step {number} of {all}", "{title} · passo {number} de {all}")
+    let heading = say!(language, "{title} · step {number} of {all}", "{title} · passo {number} de {all}");
+    match progress.question() {
+        Some((question, None)) => {
+            let answers = question.answers.len();
+            heading + &say!(language, " · the keys 1 to {answers} answer", " · as teclas 1 a {answers} respondem")
+        }
+        _ => heading,
+    }
 }
 
 /// Shows the step. Returns the action of the pressed button.
