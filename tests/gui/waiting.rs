@@ -33,7 +33,7 @@ fn cancelled_tracing_leaves_the_run_as_it_was() {
     press(&mut window, "Virtual");
     until(&mut window, "tracing", is_tracing);
     window.get_by_role_and_label(Role::Button, "Cancel");
-    window.get_by_label_contains("Tracing the picture for virtual time: ");
+    window.get_by_label_contains("Tracing the picture: ");
     let stage = |window: &Window| {
         let session: &Session = session(window);
         (session.stage().paused, session.stage().is_live())

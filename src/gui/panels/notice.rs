@@ -50,8 +50,7 @@ pub fn loading(ctx: &Context, at: Pos2, loading: &LoadingProgress<'_>, language:
     floating(ctx, "loading", at, |ui| {
         let text = |text: String, colour| RichText::new(text).font(theme::regular(theme::BODY)).color(colour);
         if *share > 0.0 {
-            let about =
-                word!(language, "Tracing the picture for virtual time", "Calculando a imagem para o tempo virtual");
+            let about = word!(language, "Tracing the picture", "Calculando a imagem");
             ui.label(text(about.into(), look.text));
             progress::bar(ui, *share, about);
             ui.label(text(progress::words(*share, *elapsed_s, language), look.quiet));

@@ -220,11 +220,7 @@ impl Session {
         let before = self.apply(settings);
         if self.settings.needs_restart(&before) {
             let now = self.settings.difference(&before, language);
-            self.note(if self.loading.is_some() {
-                say!(language, "The next run has: {now}", "A próxima execução tem: {now}")
-            } else {
-                say!(language, "Restarted with: {now}", "Reiniciada com: {now}")
-            });
+            self.note(say!(language, "Restarted with: {now}", "Reiniciada com: {now}"));
         }
     }
 
