@@ -11,7 +11,7 @@ pub type Rgb = [u8; 3];
 /// The number of distinct node colours.
 pub const DISTINCT_COLOURS: usize = 32;
 
-/// Nodes, in a ring of [`DISTINCT_COLOURS`], whose colours are distinct wherever they meet in a chart, on a light and
+/// Nodes whose colours are distinct wherever they meet in a chart, on a light and
 /// on a dark background, for people with any common kind of colour blindness.
 pub const CHART_NODES: [u16; 8] = [0, 3, 2, 4, 7, 1, 19, 12];
 
@@ -42,23 +42,17 @@ pub const LIGHT: Neutral = Neutral {
 /// White paper.
 pub const PRINT: Neutral = Neutral { ground: [0xff; 3], ..LIGHT };
 
-/// The colour of node `node` (from 0) in a ring of `nodes`.
-pub fn node_colour(node: usize, nodes: usize) -> Rgb {
-    let last = nodes.saturating_sub(1);
-    // The last node is the first one's neighbour. If both had the same hue, it swaps colours with the fourth node
-    // before it.
-    let place = match node {
-        _ if nodes % HUES != 1 || nodes == 1 => node,
-        _ if node == last => last - HUES / 2,
-        _ if node == last - HUES / 2 => last,
-        _ => node,
-    };
-    COLOURS[place / HUES % COLOURS.len()][place % HUES]
+/// The colour of node `node` (from 0). It does not depend on the number of nodes, so a machine keeps its colour when
+/// others are added.
+pub fn node_colour(node: usize) -> Rgb {
+    // The first node's colour does not repeat: any node may be the last one, which is the first one's neighbour.
+    let place = if node < DISTINCT_COLOURS { node } else { 1 + (node - DISTINCT_COLOURS) % (DISTINCT_COLOURS - 1) };
+    COLOURS[place / HUES][place % HUES]
 }
 
 /// The colours of all nodes of a ring of `nodes`.
 pub fn node_colours(nodes: usize) -> Vec<Rgb> {
-    (0..nodes).map(|node| node_colour(node, nodes)).collect()
+    (0..nodes).map(node_colour).collect()
 }
 
 /// Black or white, whichever is easier to read on `ground`.
@@ -168,7 +162,7 @@ mod tests {
         for nodes in 2..=100 {
             let least = if nodes == 8 { 0.15 } else { 0.08 };
             for node in 0..nodes {
-                let (one, other) = (node_colour(node, nodes), node_colour((node + 1) % nodes, nodes));
+                let (one, other) = (node_colour(node), node_colour((node + 1) % nodes));
                 let found = distance(one, other);
                 assert!(found >= least, "nodes {node} and its neighbour of {nodes}: {one:?} {other:?} {found}");
             }
@@ -177,7 +171,7 @@ mod tests {
 
     #[test]
     fn chart_lines_are_distinct() {
-        let colours = CHART_NODES.map(|node| node_colour(usize::from(node), DISTINCT_COLOURS));
+        let colours = CHART_NODES.map(|node| node_colour(usize::from(node)));
         for (i, &one) in colours.iter().enumerate() {
             let seen = [contrast(one, PRINT.ground), contrast(one, [0x11, 0x14, 0x19])];
             assert!(seen.into_iter().all(|contrast| contrast >= 2.2), "{one:?} {seen:?}");

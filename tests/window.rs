@@ -54,7 +54,7 @@ fn window_shows_the_run_and_obeys_the_mouse() {
     colours.dedup();
     assert!(colours.len() > 100, "only {} colours in the picture", colours.len());
     for node in 0..8 {
-        let own = node_colour(node, 8);
+        let own = node_colour(node);
         let seen = pixels(&shot, ring).filter(|&pixel| pixel == own).count();
         assert!(seen > 20, "node {} shows {seen} pixels of its colour", node + 1);
     }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::{Failure, print, progress};
 use crate::cancel::CancelToken;
+use crate::driver::PictureCache;
 use crate::language::Language;
 use crate::lesson::{BUILT_IN, Lesson};
 use crate::time::Time;
@@ -28,7 +29,7 @@ pub(super) fn lesson(argument: Option<&Path>) -> Result<(), Failure> {
 /// Executes the runs of a lesson in virtual time, and prints its steps and its claims. Fails if a claim is not true.
 pub(super) fn play(lesson: &Lesson) -> Result<(), Failure> {
     let bar = progress(lesson.pixels().into(), "{percent:>3} %  tracing");
-    let performed = lesson.perform(&|more| bar.inc(more.into()), &CancelToken::default());
+    let performed = lesson.perform(&PictureCache::default(), &|more| bar.inc(more.into()), &CancelToken::default());
     bar.finish_and_clear();
     let performed = performed.map_err(|error| Failure::Refused(error.to_string()))?.unwrap_or_default();
     for (number, step) in (1..).zip(&lesson.steps) {

@@ -10,7 +10,7 @@ use crate::picture::{Quality, Region, Size};
 use crate::runlog::{MessageCounts, Metrics, RunLog};
 use crate::time::Time;
 use crate::tracer::{RayCounts, SceneStats, Tracer};
-use crate::view::{TimeScale, time_words};
+use crate::view::{TimeScale, disturbance, disturbance_words, time_words};
 
 /// The figures of a run; times are in seconds.
 #[derive(Debug, Serialize)]
@@ -40,6 +40,8 @@ pub(super) struct Report {
     /// The cost of atoms in the run / their cost on one thread; null if there was too little to measure.
     overhead: Option<f64>,
     finish_spread_s: f64,
+    /// Share of the machines' time that was lost to other work of this computer.
+    disturbance: f64,
     rays: RayCounts,
     atoms: u32,
     atoms_by_node: Vec<u32>,
@@ -73,6 +75,7 @@ impl Report {
             efficiency: metrics.efficiency().unwrap_or_default(),
             overhead,
             finish_spread_s: metrics.finish_spread().as_secs_f64(),
+            disturbance: disturbance(log),
             rays,
             atoms: header.division.atoms(),
             atoms_by_node: metrics.atoms_by_node(),
@@ -116,6 +119,9 @@ impl fmt::Display for Report {
             "  makespan {makespan}, ideal {ideal}: efficiency {:.3}; the nodes ended within {spread}",
             self.efficiency
         )?;
+        if let Some(disturbed) = disturbance_words(self.disturbance, Language::English) {
+            writeln!(f, "  {disturbed}")?;
+        }
         if let Some(overhead) = self.overhead {
             writeln!(f, "  tracing took {work} of CPU time, {overhead:.3} times that of one thread")?;
         }

@@ -85,24 +85,6 @@ impl TracedPicture {
         Ok(Err(part))
     }
 
-    /// Traces the picture pixel by pixel, so that it can be divided into atoms of any size. Returns all pixels in scan
-    /// order, and the cost of each on the reference machine in virtual time; `None` if cancelled before the end.
-    ///
-    /// # Errors
-    /// As [`TracedPicture::of`].
-    pub fn by_pixel(
-        tracer: &Arc<Tracer>,
-        done: &(dyn Fn(u32) + Sync),
-        cancel: &CancelToken,
-    ) -> Result<Option<(Vec<Colour>, PixelCosts)>, ThreadError> {
-        let size = tracer.size();
-        let picture = Self::unless_cancelled(tracer, Division::new(size.pixels(), 1), done, cancel)?;
-        Ok(picture.map(|picture| {
-            let costs = PixelCosts::new(size, &picture.costs());
-            (picture.pixels, costs)
-        }))
-    }
-
     /// Returns the cost of each atom on the reference machine in virtual time.
     pub fn costs(&self) -> Vec<Duration> {
         // Every atom has a ray, but a test's tracer may count none.
@@ -133,6 +115,38 @@ impl TracedPicture {
             picture.counts += counts;
         }
         picture
+    }
+}
+
+/// A traced picture with the cost of each pixel, for runs in virtual time with atoms of any size. It takes 20 bytes a
+/// pixel.
+#[derive(Debug)]
+pub struct CostedPicture {
+    /// All pixels in scan order.
+    pub pixels: Vec<Colour>,
+    /// The cost of each pixel on the reference machine in virtual time.
+    pub costs: PixelCosts,
+    /// The number of its rays, by kind.
+    pub counts: RayCounts,
+}
+
+impl CostedPicture {
+    /// Traces the picture on all cores, and tells `done` from time to time how many more pixels are traced. Returns
+    /// `None` if cancelled before the end.
+    ///
+    /// # Errors
+    /// As [`TracedPicture::of`].
+    pub fn trace(
+        tracer: &Arc<Tracer>,
+        done: &(dyn Fn(u32) + Sync),
+        cancel: &CancelToken,
+    ) -> Result<Option<Self>, ThreadError> {
+        let size = tracer.size();
+        let picture = TracedPicture::unless_cancelled(tracer, Division::new(size.pixels(), 1), done, cancel)?;
+        Ok(picture.map(|picture| {
+            let costs = PixelCosts::new(size, &picture.costs());
+            Self { pixels: picture.pixels, costs, counts: picture.counts }
+        }))
     }
 }
 

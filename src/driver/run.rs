@@ -7,8 +7,10 @@ use std::thread;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::error::RunError;
+use super::render_all::CostedPicture;
 use super::run_context::RunContext;
 use super::shared::{Inboxes, SharedRun};
+use super::sim_thread::SimPicture;
 use super::supervisor::{Supervisor, Threads};
 use super::{TracePixels, Update};
 use super::{node_thread, pair_threads, sim_thread, stealing};
@@ -50,14 +52,7 @@ impl Run {
         assert!((1..=usize::from(NodeId::MAX)).contains(&nodes), "a run of {nodes} nodes is impossible");
         let its_header = header.clone();
         match header.driver {
-            Driver::Sim => {
-                let (shared, orders) = sim_thread::SharedSim::new();
-                let shared = Arc::new(shared);
-                let its = Arc::clone(&shared);
-                let play =
-                    move |updates: &Sender<Update>| sim_thread::play(&its_header, &its, &orders, &trace, updates);
-                Self { control: Control::Sim(shared), supervisor: Supervisor::start("run", play) }
-            }
+            Driver::Sim => Self::start_sim(its_header, SimPicture::Untraced(Box::new(trace))),
             Driver::Threads | Driver::Pairs | Driver::WorkStealing => {
                 let header = if header.driver == Driver::WorkStealing { stealing::header(header) } else { its_header };
                 let (shared, inboxes) = SharedRun::new(&header);
@@ -68,6 +63,23 @@ impl Run {
                 Self { control: Control::Parties(shared), supervisor: Supervisor::start("run", supervise) }
             }
         }
+    }
+
+    /// Starts the run that `header` describes in virtual time, with a picture that is traced already.
+    ///
+    /// # Panics
+    /// If the picture is of another size.
+    pub fn start_traced(picture: Arc<CostedPicture>, header: &Header) -> Self {
+        assert_eq!(picture.pixels.len(), header.size.pixels() as usize, "the picture of the run");
+        Self::start_sim(header.clone(), SimPicture::Traced(picture))
+    }
+
+    fn start_sim(header: Header, picture: SimPicture) -> Self {
+        let (shared, orders) = sim_thread::SharedSim::new();
+        let shared = Arc::new(shared);
+        let its = Arc::clone(&shared);
+        let play = move |updates: &Sender<Update>| sim_thread::play(&header, &its, &orders, &picture, updates);
+        Self { control: Control::Sim(shared), supervisor: Supervisor::start("run", play) }
     }
 
     /// Returns the updates, oldest first.

@@ -1,7 +1,7 @@
 //! A run in virtual time, played at the speed of a clock, so that the user can watch it and give it commands.
 
 use std::ops::Range;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use crossbeam_channel::{Receiver, Sender};
@@ -10,9 +10,9 @@ use super::clock::Clock;
 use super::dedup::PlacedOnce;
 use super::endpoint::FLUSH;
 use super::error::RunError;
-use super::render_all::TracedPicture;
+use super::render_all::{CostedPicture, TracedPicture};
 use super::{TracePixels, Update};
-use crate::picture::Division;
+use crate::picture::{Colour, Division};
 use crate::record::Record;
 use crate::runlog::{Header, ResultsInFlight};
 use crate::scenario::Command;
@@ -119,7 +119,15 @@ impl SharedSim {
     }
 }
 
-/// Traces the picture to get the costs of its atoms, then plays the run to its end.
+/// The picture of a run in virtual time.
+pub(super) enum SimPicture {
+    /// It has to be traced, with this function.
+    Untraced(Box<TracePixels>),
+    /// It is traced already.
+    Traced(Arc<CostedPicture>),
+}
+
+/// Traces the picture to get the costs of its atoms, unless it is traced, then plays the run to its end.
 ///
 /// # Errors
 /// If the run was stopped, or the picture could not be traced.
@@ -127,16 +135,22 @@ pub(super) fn play(
     header: &Header,
     shared: &SharedSim,
     orders: &Receiver<SimOrder>,
-    trace: &TracePixels,
+    picture: &SimPicture,
     updates: &Sender<Update>,
 ) -> Result<(), RunError> {
     let cancel = shared.clock.ended();
-    let picture = TracedPicture::trace(header.division, trace, &|_| {}, cancel)?.ok_or(RunError::Stopped)?;
-    let costs = picture.costs();
+    let traced;
+    let (pixels, costs, counts) = match picture {
+        SimPicture::Untraced(trace) => {
+            traced = TracedPicture::trace(header.division, trace, &|_| {}, cancel)?.ok_or(RunError::Stopped)?;
+            (&traced.pixels, traced.costs(), traced.counts)
+        }
+        SimPicture::Traced(picture) => (&picture.pixels, picture.costs.of_atoms(header.division), picture.counts),
+    };
     let mut sim = Sim::new(header, &[], move |atom| costs[atom as usize]);
     let mut updater = Updater {
         division: header.division,
-        picture,
+        pixels,
         in_flight: ResultsInFlight::default(),
         placed_once: PlacedOnce::new(header.division),
         updates,
@@ -152,7 +166,7 @@ pub(super) fn play(
         let next = match sim.next() {
             None if sim.is_finished() => {
                 updater.send(records);
-                let _ = updates.send(Update::Rays(updater.picture.counts));
+                let _ = updates.send(Update::Rays(counts));
                 return Ok(());
             }
             next => next.filter(|_| !paused),
@@ -181,7 +195,8 @@ pub(super) fn play(
 /// Sends the updates to the run's owner.
 struct Updater<'a> {
     division: Division,
-    picture: TracedPicture,
+    /// All pixels in scan order.
+    pixels: &'a [Colour],
     in_flight: ResultsInFlight,
     placed_once: PlacedOnce,
     updates: &'a Sender<Update>,
@@ -200,7 +215,7 @@ impl Updater<'_> {
         }
         if !atoms.is_empty() {
             let places = atoms.iter().map(|range| self.division.pixels_of(range));
-            let of = |place: Range<u32>| &self.picture.pixels[place.start as usize..place.end as usize];
+            let of = |place: Range<u32>| &self.pixels[place.start as usize..place.end as usize];
             let pixels = places.flat_map(of).copied().collect();
             let _ = self.updates.send(Update::Placed { atoms, pixels });
         }

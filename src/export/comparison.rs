@@ -81,7 +81,7 @@ impl Comparison {
             names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
         let title = format!("{}, {}, in virtual time", self.title, self.size);
         let PrintedDrawing { marks, size } = PrintedDrawing::comparison(&title, &runs, Language::English);
-        write_drawing(to, &to_svg(&marks, size, 1), is_png)
+        write_drawing(to, &to_svg(&marks, size), is_png)
     }
 }
 

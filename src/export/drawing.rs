@@ -22,12 +22,11 @@ pub enum Drawing {
 impl Drawing {
     /// Returns the drawing as SVG.
     pub fn svg(self, log: &RunLog) -> String {
-        let nodes = log.header.speeds.len();
         let PrintedDrawing { marks, size } = match self {
             Self::Ring(at) => PrintedDrawing::ring(log, at, Language::English),
             Self::Timeline => PrintedDrawing::timeline(log, Language::English),
         };
-        to_hatched_svg(&marks, size, nodes)
+        to_hatched_svg(&marks, size)
     }
 
     /// Writes the drawing: as PNG if `is_png`, else as SVG. Returns the letters that no font of this computer has, and

@@ -223,7 +223,7 @@ impl<'a> FilmFrames<'a> {
     }
 
     fn draw(&self, marks: &[Mark], [width, height]: [u32; 2]) -> Result<RgbImage, ExportError> {
-        let svg = to_svg(marks, [width as f32, height as f32], self.log.header.speeds.len());
+        let svg = to_svg(marks, [width as f32, height as f32]);
         let (size, rgb) = self.raster.draw(&svg, 1.0)?;
         RgbImage::from_raw(size.width(), size.height(), rgb).ok_or(ExportError::TooFewPixels(size))
     }

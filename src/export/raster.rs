@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn marks_are_drawn_at_their_places() {
         let disc = Mark::Disc { centre: [30.0, 20.0], radius: 10.0, ink: Hue::Text.full() };
-        let (size, rgb) = Raster::new("").draw(&to_svg(&[disc], [60.0, 40.0], 1), 2.0).expect("a drawing");
+        let (size, rgb) = Raster::new("").draw(&to_svg(&[disc], [60.0, 40.0]), 2.0).expect("a drawing");
         assert_eq!((size.width(), size.height()), (120, 80));
         let at = |x: usize, y: usize| [0, 1, 2].map(|channel| rgb[3 * (120 * y + x) + channel]);
         assert_eq!([at(60, 40), at(75, 40)], [PRINT.text; 2]);
@@ -89,7 +89,7 @@ mod tests {
     fn ink(text: &str, size: TextSize) -> usize {
         let (at, anchor, ink) = ([5.0, 20.0], Anchor::Left, Hue::Text.full());
         let label = Mark::Label { at, anchor, text: text.into(), size, ink };
-        let (_, rgb) = Raster::new("").draw(&to_svg(&[label], [200.0, 40.0], 1), 1.0).expect("a drawing");
+        let (_, rgb) = Raster::new("").draw(&to_svg(&[label], [200.0, 40.0]), 1.0).expect("a drawing");
         rgb.chunks(3).filter(|pixel| *pixel != [0xff; 3]).count()
     }
 
@@ -112,7 +112,7 @@ mod tests {
             let (at, anchor, ink) = ([5.0, 20.0], Anchor::Left, Hue::Text.full());
             let label = Mark::Label { at, anchor, text: letter.into(), size: TextSize::Body(1.0), ink };
             let (raster, plain) = (Raster::new(&letter.to_string()), Raster::new(""));
-            let svg = to_svg(&[label], [60.0, 40.0], 1);
+            let svg = to_svg(&[label], [60.0, 40.0]);
             let is_as_without_fonts = raster.draw(&svg, 1.0).unwrap() == plain.draw(&svg, 1.0).unwrap();
             assert_eq!(is_as_without_fonts, raster.missing().contains(&letter), "{letter:?}");
         }

@@ -8,21 +8,20 @@ use crate::font::PLEX_NAME;
 use crate::palette::{PRINT, Rgb, node_colour, readable, text_on};
 use crate::view::{Anchor, Hue, Ink, Mark, Point, TextSize};
 
-/// Returns a display list for a canvas of `size` as SVG, with the colours of a ring of `nodes`; charts use
-/// [`crate::palette::DISTINCT_COLOURS`] colours.
-pub fn to_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
-    svg_text(marks, size, nodes, false)
+/// Returns a display list for a canvas of `size` as SVG.
+pub fn to_svg(marks: &[Mark], size: Point) -> String {
+    svg_text(marks, size, false)
 }
 
 /// Like [`to_svg`], but also hatches boxes and larger discs in a node's colour, each node in its own way, to
 /// distinguish them in print without colour.
-pub fn to_hatched_svg(marks: &[Mark], size: Point, nodes: usize) -> String {
-    svg_text(marks, size, nodes, true)
+pub fn to_hatched_svg(marks: &[Mark], size: Point) -> String {
+    svg_text(marks, size, true)
 }
 
-fn svg_text(marks: &[Mark], size: Point, nodes: usize, hatched: bool) -> String {
+fn svg_text(marks: &[Mark], size: Point, hatched: bool) -> String {
     let [width, height] = size.map(number);
-    let mut svg = Svg { text: String::new(), nodes, hatched };
+    let mut svg = Svg { text: String::new(), hatched };
     svg.put(format_args!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"'{PLEX_NAME}', system-ui, 'Noto Sans', Arial, sans-serif\">\n",
@@ -39,7 +38,6 @@ fn svg_text(marks: &[Mark], size: Point, nodes: usize, hatched: bool) -> String 
 /// Writer of an SVG file.
 struct Svg {
     text: String,
-    nodes: usize,
     hatched: bool,
 }
 
@@ -138,7 +136,7 @@ impl Svg {
     }
 
     fn colour(&self, hue: Hue) -> Rgb {
-        let node = |node: u16| node_colour(node.into(), self.nodes);
+        let node = |node: u16| node_colour(node.into());
         match hue {
             Hue::Node(i) => node(i),
             Hue::OnNode(i) => text_on(node(i)),
@@ -287,8 +285,8 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_display_list_becomes_valid_xml(marks in prop::collection::vec(marks(), 0..12), nodes in 0..40usize) {
-            let text = to_svg(&marks, [640.0, 480.0], nodes);
+        fn every_display_list_becomes_valid_xml(marks in prop::collection::vec(marks(), 0..12)) {
+            let text = to_svg(&marks, [640.0, 480.0]);
             let document = Document::parse(&text).map_err(|error| TestCaseError::fail(format!("{error}: {text}")))?;
             let pieces = marks.iter().map(|mark| if let Mark::Trail { points, .. } = mark { points.len() - 1 } else { 1 });
             let shapes: Vec<_> = document.root_element().children().filter(|node| node.is_element()).collect();
@@ -304,7 +302,7 @@ mod tests {
         fn label_text_survives_escaping(text in "[ -~äß←…]{1,30}") {
             let (ink, size) = (Hue::Text.full(), TextSize::Body(1.0));
             let label = Mark::Label { at: [0.0; 2], anchor: Anchor::Left, text: text.clone(), size, ink };
-            let svg = to_svg(&[label], [100.0; 2], 1);
+            let svg = to_svg(&[label], [100.0; 2]);
             let document = Document::parse(&svg).expect("it is XML");
             let said = document.descendants().find(|node| node.has_tag_name("text")).and_then(|node| node.text());
             prop_assert_eq!(said, Some(&*text));
@@ -313,7 +311,7 @@ mod tests {
 
     /// Returns the element and the attributes of a single mark.
     fn drawn(mark: Mark) -> Vec<(String, String)> {
-        let text = to_svg(&[mark], [640.0, 480.0], 8);
+        let text = to_svg(&[mark], [640.0, 480.0]);
         let document = Document::parse(&text).expect("it is XML");
         let shape = document.root_element().children().filter(|node| node.is_element()).nth(1).expect("a mark");
         let name = ("".into(), shape.tag_name().name().into());
@@ -332,7 +330,7 @@ mod tests {
             is(&disc, &[("", "circle"), ("cx", "1"), ("cy", "2.5"), ("r", "3.34"), ("fill-opacity", "0.5")]),
             "{disc:?}"
         );
-        assert!(is(&disc, &[("fill", &hex(node_colour(0, 8)))]), "{disc:?}");
+        assert!(is(&disc, &[("fill", &hex(node_colour(0)))]), "{disc:?}");
         let rect = drawn(Mark::Box { centre: [10.0, 10.0], half: [4.0, 2.0], round: 9.0, ink });
         assert!(is(&rect, &[("x", "6"), ("y", "8"), ("width", "8"), ("height", "4"), ("rx", "2")]), "{rect:?}");
         let points = vec![[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [0.0, 0.0]];
@@ -345,12 +343,12 @@ mod tests {
     #[test]
     fn trail_grows_from_nothing_to_full_width() {
         let points = vec![[0.0, 0.0], [10.0, 0.0], [20.0, 0.0]];
-        let text = to_svg(&[Mark::Trail { points, width: 4.0, ink: Hue::Text.full() }], [640.0, 480.0], 8);
+        let text = to_svg(&[Mark::Trail { points, width: 4.0, ink: Hue::Text.full() }], [640.0, 480.0]);
         let document = Document::parse(&text).expect("it is XML");
         let pieces: Vec<_> = document.descendants().filter_map(|node| node.attribute("points")).collect();
         assert_eq!(pieces, ["0,0 0,0 10,-1 10,1", "10,1 10,-1 20,-2 20,2"]);
         let still = Mark::Trail { points: vec![[9.0, 9.0]; 2], width: 4.0, ink: Hue::Text.full() };
-        assert!(to_svg(&[still], [640.0, 480.0], 8).contains("points=\"9,9 9,9 9,9 9,9\""));
+        assert!(to_svg(&[still], [640.0, 480.0]).contains("points=\"9,9 9,9 9,9 9,9\""));
     }
 
     #[test]
@@ -360,23 +358,23 @@ mod tests {
             drawn(Mark::Label { at: [9.0, 100.0], anchor, text: "ring".into(), size, ink: hue.full() })
         };
         let yellow = label(Hue::Node(5));
-        assert!(is(&yellow, &[("fill", &hex(readable(node_colour(5, 8), PRINT.ground)))]), "{yellow:?}");
+        assert!(is(&yellow, &[("fill", &hex(readable(node_colour(5), PRINT.ground)))]), "{yellow:?}");
         assert!(is(&yellow, &[("x", "9"), ("y", "105.76"), ("text-anchor", "end"), ("font-size", "16")]), "{yellow:?}");
         let on_yellow = label(Hue::OnNode(5));
-        assert!(is(&on_yellow, &[("fill", &hex(text_on(node_colour(5, 8))))]), "{on_yellow:?}");
+        assert!(is(&on_yellow, &[("fill", &hex(text_on(node_colour(5))))]), "{on_yellow:?}");
     }
     #[test]
     fn machines_are_hatched_and_their_numbers_are_outlined() {
         let disc = |radius| Mark::Disc { centre: [50.0; 2], radius, ink: Hue::Node(1).full() };
         let (anchor, size, text) = (Anchor::Centre, TextSize::Body(1.0), "2".to_owned());
         let label = Mark::Label { at: [50.0; 2], anchor, text, size, ink: Hue::OnNode(1).full() };
-        let text = to_hatched_svg(&[disc(30.0), disc(3.0), label], [100.0; 2], 8);
+        let text = to_hatched_svg(&[disc(30.0), disc(3.0), label], [100.0; 2]);
         let document = Document::parse(&text).expect("it is XML");
         let all = |name: &str, attribute: &str| -> Vec<String> {
             let named = document.descendants().filter(|node| node.has_tag_name(name));
             named.map(|node| node.attribute(attribute).unwrap_or_default().to_owned()).collect()
         };
-        let colour = hex(node_colour(1, 8));
+        let colour = hex(node_colour(1));
         assert_eq!(all("circle", "fill"), ["url(#node-1)", &colour]);
         assert_eq!(all("text", "stroke"), [colour]);
         assert_eq!(all("pattern", "id"), ["node-1"]);

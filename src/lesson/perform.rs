@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::{Lesson, LessonError, RunPlan};
 use crate::balance::Rules;
 use crate::cancel::CancelToken;
-use crate::driver::TracedPicture;
+use crate::driver::{CostedPicture, PictureCache};
 use crate::picture::Quality;
 use crate::runlog::{Header, LinkSettings, RunLog};
 use crate::scene::{Opened, built_in};
@@ -26,43 +26,47 @@ pub struct LessonRun {
     pub log: Arc<RunLog>,
 }
 
-/// A scene traced at one size, and the cost of each pixel.
-struct TracedPixels {
+/// A scene traced at one size.
+struct TracedScene {
     opened: Arc<Opened>,
     tracer: Arc<Tracer>,
-    costs: PixelCosts,
+    picture: Arc<CostedPicture>,
 }
 
 impl Lesson {
-    /// Executes all runs in virtual time. Calls `done` with the number of newly traced pixels. Returns `None` if
-    /// cancelled before the end.
+    /// Executes all runs in virtual time. Takes their pictures from `kept`, or traces them; calls `done` with the
+    /// number of pixels that are newly there. Returns `None` if cancelled before the end.
     ///
     /// # Errors
     /// [`LessonError::Scene`] if a scene cannot be opened, [`LessonError::Trace`] if a thread fails.
     pub fn perform(
         &self,
+        kept: &PictureCache,
         done: &(dyn Fn(u32) + Sync),
         cancel: &CancelToken,
     ) -> Result<Option<Vec<(String, LessonRun)>>, LessonError> {
         // Runs with the same scene and size share one traced picture.
-        let mut pictures: BTreeMap<(&str, u32, u32), TracedPixels> = BTreeMap::new();
+        let mut pictures: BTreeMap<(&str, u32, u32), TracedScene> = BTreeMap::new();
         let mut performed = Vec::new();
         for (name, plan) in &self.runs {
             let traced = match pictures.entry(plan.picture()) {
                 Entry::Occupied(traced) => traced.into_mut(),
                 Entry::Vacant(place) => {
-                    let Some(traced) = trace(name, plan, &self.directory, done, cancel)? else { return Ok(None) };
+                    let Some(traced) = trace(name, plan, &self.directory, (kept, done, cancel))? else {
+                        return Ok(None);
+                    };
                     place.insert(traced)
                 }
             };
-            let log = Arc::new(plan.trial(&traced.opened, &traced.costs).run(&traced.costs));
+            let costs = &traced.picture.costs;
+            let log = Arc::new(plan.trial(&traced.opened, costs).run(costs));
             let (opened, tracer) = (Arc::clone(&traced.opened), Arc::clone(&traced.tracer));
             performed.push((name.clone(), LessonRun { opened, tracer, log }));
         }
         Ok(Some(performed))
     }
 
-    /// The number of pixels that [`Lesson::perform`] traces.
+    /// The number of pixels of the pictures that [`Lesson::perform`] needs.
     pub fn pixels(&self) -> u32 {
         let pictures: BTreeSet<_> = self.runs.values().map(RunPlan::picture).collect();
         pictures.iter().map(|(_, width, height)| width * height).sum()
@@ -109,15 +113,15 @@ fn trace(
     name: &str,
     plan: &RunPlan,
     directory: &Path,
-    done: &(dyn Fn(u32) + Sync),
-    cancel: &CancelToken,
-) -> Result<Option<TracedPixels>, LessonError> {
+    (kept, done, cancel): (&PictureCache, &(dyn Fn(u32) + Sync), &CancelToken),
+) -> Result<Option<TracedScene>, LessonError> {
     let is_built_in = built_in(&plan.scene).is_some();
     let path = if is_built_in { plan.scene.clone().into() } else { directory.join(&plan.scene) };
     let opened = Opened::new(path).map_err(|source| LessonError::Scene { run: name.to_owned(), source })?;
     let opened = Arc::new(opened);
     let tracer = Arc::new(Tracer::new(&opened.scene, plan.size, Quality::default()));
-    let traced = TracedPicture::by_pixel(&tracer, done, cancel)
+    let picture = kept
+        .get_or_trace(&opened.text, &tracer, done, cancel)
         .map_err(|source| LessonError::Trace { run: name.to_owned(), source })?;
-    Ok(traced.map(|(_, costs)| TracedPixels { opened, tracer, costs }))
+    Ok(picture.map(|picture| TracedScene { opened, tracer, picture }))
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::resolve::resolve;
 use super::syntax::SceneFile;
-use super::{BUILT_IN, Scene, built_in};
+use super::{BUILT_IN, Camera, Scene, built_in};
 use crate::ron_file::{self, FileError, find_name};
 
 /// A scene, with its file's name and text.
@@ -18,6 +18,8 @@ pub struct Opened {
     pub text: String,
     /// The scene that the text describes.
     pub scene: Scene,
+    /// The camera before it was moved.
+    pub home_camera: Camera,
 }
 
 impl Opened {
@@ -46,7 +48,9 @@ impl Opened {
     /// # Errors
     /// The errors of [`Scene::parse`].
     pub fn from_text(name: &str, text: &str) -> Result<Self, FileError> {
-        Ok(Self { name: name.into(), path: None, text: text.into(), scene: Scene::parse(text)? })
+        let scene = Scene::parse(text)?;
+        let home_camera = scene.camera;
+        Ok(Self { name: name.into(), path: None, text: text.into(), scene, home_camera })
     }
 }
 

@@ -61,8 +61,8 @@ impl Camera {
 }
 
 impl Opened {
-    /// The same scene with another camera, and with a text that states this camera; `None` if the text cannot be
-    /// changed.
+    /// The same scene with another camera and the same home, and with a text that states this camera; `None` if the
+    /// text cannot be changed.
     pub fn with_camera(&self, camera: Camera) -> Option<Self> {
         let range = camera_range(&self.text)?;
         let vector = |DVec3 { x, y, z }: DVec3| format!("({x:?}, {y:?}, {z:?})");
@@ -78,7 +78,7 @@ impl Opened {
         let read = &opened.scene.camera;
         let is_exact =
             read.eye == camera.eye && read.look_at == camera.look_at && read.field_of_view == camera.field_of_view;
-        is_exact.then(|| Self { path: self.path.clone(), ..opened })
+        is_exact.then(|| Self { path: self.path.clone(), home_camera: self.home_camera, ..opened })
     }
 }
 
@@ -163,6 +163,7 @@ mod tests {
             let camera = opened.scene.camera.orbit(right, up).dolly(factor).pan(by, -by);
             let moved = opened.with_camera(camera).unwrap();
             prop_assert_eq!(moved.scene.camera.eye, camera.eye);
+            prop_assert_eq!(moved.home_camera.eye, opened.scene.camera.eye);
             prop_assert_eq!(moved.scene.solids.len(), opened.scene.solids.len());
             // The text can be changed again.
             prop_assert!(moved.with_camera(opened.scene.camera).is_some());

@@ -79,7 +79,7 @@ impl Study {
     }
 
     fn add_chart(&mut self, name: &str, marks: &[Mark]) {
-        let svg = to_svg(marks, CHART_SIZE, crate::palette::DISTINCT_COLOURS);
+        let svg = to_svg(marks, CHART_SIZE);
         self.files.push((format!("{}-{name}.svg", self.name), svg.into_bytes()));
     }
 

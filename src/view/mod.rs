@@ -45,6 +45,7 @@ mod print;
 mod tests;
 
 pub use analysis::compare_runs::{NamedBudget, compare_runs};
+pub use analysis::disturbance::{disturbance, disturbance_words};
 pub use analysis::summary::{Summary, result_words, summary_figures, work_split_words};
 pub use analysis::time_budget::{LastMachine, MachineSeconds, TimeBudget};
 pub use charts::axis::{Axis, Scale};

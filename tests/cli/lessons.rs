@@ -3,10 +3,11 @@
 use std::fs;
 
 use anel::cancel::CancelToken;
+use anel::driver::PictureCache;
 use anel::lesson::{BUILT_IN, Lesson, LessonRun};
 
 fn performed(lesson: &Lesson) -> Vec<(String, LessonRun)> {
-    let performed = lesson.perform(&|_| {}, &CancelToken::default());
+    let performed = lesson.perform(&PictureCache::default(), &|_| {}, &CancelToken::default());
     performed.expect("its scenes can be read").expect("it is not cancelled")
 }
 
@@ -109,7 +110,7 @@ fn scene_beside_the_lesson_is_found() {
     let performed = performed(&lesson);
     assert_eq!(performed[0].1.opened.name, "ball");
     let lesson = Lesson { directory: "/nowhere".into(), ..lesson };
-    let missing = lesson.perform(&|_| {}, &CancelToken::default());
+    let missing = lesson.perform(&PictureCache::default(), &|_| {}, &CancelToken::default());
     assert!(missing.is_err_and(|error| error.to_string().starts_with("the run `one`: ")), "it names the run");
 }
 

@@ -114,6 +114,12 @@ pub fn choose(window: &mut Window, list: &str, name: &str) {
     press(window, name);
 }
 
+/// Presses *Virtual* and waits until the picture is traced and the run in virtual time has begun.
+pub fn switch_to_virtual_time(window: &mut Window) {
+    press(window, "Virtual");
+    until(window, "virtual time", |window| session(window).header().driver == anel::runlog::Driver::Sim);
+}
+
 /// Presses a key.
 pub fn key(window: &mut Window, key: Key) {
     window.key_press(key);

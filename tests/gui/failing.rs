@@ -13,7 +13,7 @@ use super::driving::*;
 fn open_adaptive() -> Window {
     let mut window = open(SIZE);
     press(&mut window, "Set up");
-    press(&mut window, "Virtual");
+    switch_to_virtual_time(&mut window);
     choose(&mut window, "Strategy", "Adaptive ring");
     press(&mut window, "Set up");
     until(&mut window, "atoms", |window| done(window) > 50);
@@ -102,7 +102,7 @@ fn ring_without_remedies_says_that_it_hangs() {
     let language = Language::English;
     let mut window = open(SIZE);
     press(&mut window, "Set up");
-    press(&mut window, "Virtual");
+    switch_to_virtual_time(&mut window);
     until(&mut window, "atoms", |window| done(window) > 50);
     assert_eq!(session(&window).header().rules.strategy, Strategy::Ring);
     key(&mut window, Key::Num1);

@@ -39,7 +39,16 @@ fn question_of_a_step_is_answered_before_the_run_goes_on() {
     assert!(2 * stage.shown_length().0 < stage.length().0, "the end stays hidden");
     window.run_steps(20);
     key(&mut window, Key::PageDown);
+    for shows_more in [Key::R, Key::ArrowRight, Key::L, Key::Num9] {
+        key(&mut window, shows_more);
+    }
     assert_eq!((step(&window).map(|(_, step)| step), done(&window)), (Some(1), before));
+    // Digits answer; they select no machine.
+    assert_eq!(
+        (notice(&window).split(':').next(), window.state().selected()),
+        (Some("First answer the question"), None)
+    );
+    window.get_by_label_contains("the keys 1 to 2 answer");
     press(&mut window, "Yes");
     window.get_by_label("Wrong: Yes");
     window.get_by_label("Right: No");

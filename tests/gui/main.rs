@@ -20,3 +20,4 @@ mod saving;
 mod setup;
 mod sharing;
 mod time;
+mod waiting;

@@ -196,3 +196,36 @@ fn demonstration_can_be_restored() {
     key(&mut window, Key::E);
     assert!(window.query_by_label("Number of machines").is_none());
 }
+
+#[test]
+fn demonstration_has_its_scene_and_camera_and_is_undone() {
+    let mut window = open_with(SIZE, "rings");
+    press(&mut window, "Set up");
+    type_number(&mut window, "Number of machines", "16");
+    assert_eq!(session(&window).settings().speeds[15], 0.1, "one is slow as before");
+    let shows = |window: &mut Window, scene: &str, nodes: usize| {
+        until(window, scene, |window| session(window).loading().is_none() && session(window).header().scene == scene);
+        assert_eq!(session(window).header().speeds.len(), nodes);
+    };
+    press(&mut window, "Back to the demonstration");
+    shows(&mut window, "ten-objects", 8);
+    key(&mut window, Key::PageUp);
+    until(&mut window, "the moved camera", |window| {
+        session(window).is_camera_moved() && !session(window).is_camera_moving()
+    });
+    // A picture of another size has the same camera, and the scene's own stays known.
+    type_number(&mut window, "Width in pixels", "320");
+    until(&mut window, "small picture", |window| session(window).header().size.width() == 320);
+    assert!(session(&window).is_camera_moved());
+    press(&mut window, "Back to the demonstration");
+    until(&mut window, "the scene's camera", |window| !session(window).is_camera_moved());
+    assert_eq!(*session(&window).settings(), Settings::default());
+    ctrl(&mut window, Key::Z);
+    until(&mut window, "the moved camera", |window| session(window).is_camera_moved());
+    assert_eq!(session(&window).settings().size.width(), 320);
+    ctrl(&mut window, Key::Z);
+    ctrl(&mut window, Key::Z);
+    shows(&mut window, "rings", 16);
+    ctrl(&mut window, Key::Y);
+    shows(&mut window, "ten-objects", 8);
+}

@@ -53,8 +53,7 @@ fn every_strategy_can_be_chosen_and_traces() {
 #[test]
 fn rayon_runs_in_real_time_only() {
     let mut window = open_setup();
-    press(&mut window, "Virtual");
-    assert_eq!(driver(&window), Driver::Sim);
+    switch_to_virtual_time(&mut window);
     choose(&mut window, "Strategy", "Work stealing (rayon)");
     assert_eq!(driver(&window), Driver::WorkStealing);
     press(&mut window, "Virtual");
@@ -143,7 +142,7 @@ fn run_in_virtual_time_obeys_and_is_replayed_and_made_live() {
 #[test]
 fn virtual_time_follows_the_pace() {
     let mut window = open_setup();
-    press(&mut window, "Virtual");
+    switch_to_virtual_time(&mut window);
     let slow = session(&window).header().pace;
     assert!(slow > 0.0 && slow < 0.5, "{slow}");
     type_number(&mut window, "Seconds of the run", "40");

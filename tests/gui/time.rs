@@ -235,7 +235,7 @@ fn recorded_run_does_not_wait_for_virtual_time() {
 fn virtual_time_runs_at_the_fastest_rate() {
     let mut window = open(SIZE);
     press(&mut window, "Set up");
-    press(&mut window, "Virtual");
+    switch_to_virtual_time(&mut window);
     type_number(&mut window, "Seconds of the run", "300");
     for _ in 0..30 {
         window.key_press(Key::Period);

@@ -29,7 +29,7 @@ use super::panels::setup::{self, SetupPanel};
 use super::panels::time::{self, TimePanel};
 use super::panels::timeline::{self, TimelinePanel};
 use super::panels::{inspector, narration, nodes, notice, ring, top_bar};
-use super::session::{JobResult, Purpose, Session};
+use super::session::{DEMONSTRATION, JobResult, Purpose, Session};
 use super::settings::Settings;
 use super::widgets::number::RefusedNumber;
 use super::widgets::test_positions;
@@ -111,7 +111,7 @@ impl App {
         match (launch.opening, &stored.scene) {
             (Some(opening), _) => session.show(opening),
             (None, Some(scene)) => session.open(stored_path::read(scene)),
-            (None, None) => session.open("ten-objects"),
+            (None, None) => session.open(DEMONSTRATION),
         }
         let mut picture = PicturePanel::default();
         picture.blend = stored.blend.unwrap_or(picture.blend).clamp(0.0, 100.0);

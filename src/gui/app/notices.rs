@@ -4,10 +4,12 @@ use egui::{Context, Pos2, vec2};
 
 use super::App;
 use crate::gui::panels::notice::{self, NoticeAction};
+use crate::gui::session::NoticeKind;
 use crate::gui::widgets::theme::GRID;
 
 impl App {
-    /// Shows the progress of an export, and above it the notice to be read now, or else the loading message.
+    /// Shows the progress of an export and of loading, and above them the notice to be read now. A note that something
+    /// was done waits for the run that is being loaded.
     pub(super) fn notices(&mut self, ctx: &Context) {
         let language = self.session.language();
         let mut at = self.notice_corner(ctx);
@@ -18,14 +20,23 @@ impl App {
             }
             at.y = top - GRID / 2.0;
         }
-        if let Some(notice) = self.session.notice().cloned() {
+        let loading = self.session.loading().filter(|loading| loading.traced.elapsed_s > 0.4);
+        let is_loading = loading.is_some();
+        if let Some(loading) = loading {
+            let (top, is_cancelled) = notice::loading(ctx, at, &loading, language);
+            if is_cancelled {
+                self.session.cancel_loading();
+            }
+            at.y = top - GRID / 2.0;
+        }
+        if let Some(notice) =
+            self.session.notice().filter(|notice| !is_loading || notice.kind != NoticeKind::Note).cloned()
+        {
             match notice::show(&notice, self.session.notices_waiting(), ctx, at, language) {
                 Some(NoticeAction::Close) => self.session.close_notice(),
                 Some(NoticeAction::Reload) => self.session.reload(),
                 None => {}
             }
-        } else if let Some((name, _)) = self.session.loading().filter(|(_, secs)| *secs > 0.4) {
-            notice::loading(ctx, at, name, language);
         }
     }
 

@@ -30,7 +30,7 @@ pub fn schedule(ctx: &Context, session: &Session, cpu: Option<f32>) {
         Phase::Running if works => Some(IDLE_INTERVAL),
         Phase::Preparing => Some(IDLE_INTERVAL),
         // The picture of the recorded run is still being traced.
-        _ if session.is_recorded() && !stage.source.has_ended() => Some(FRAME_INTERVAL),
+        _ if session.is_recorded() && !stage.source.has_ended() => Some(IDLE_INTERVAL),
         Phase::Running | Phase::Finished | Phase::Failed(_) => None,
     };
     let fades = session.notice().and_then(|notice| notice.remains(ctx.input(|input| input.time)));

@@ -239,7 +239,7 @@ pub const KEY_TABLE: &[KeyRow] = &[
     },
     KeyRow {
         keys_text: same("1 … 9"),
-        effect: ("Select a machine, an answer, an entry", "Selecionar máquina, resposta ou item"),
+        effect: ("Select a machine; in a question, answer", "Selecionar máquina; numa pergunta, responder"),
         keys: &[
             (NONE, Key::Num1, UserCommand::Select(0)),
             (NONE, Key::Num2, UserCommand::Select(1)),

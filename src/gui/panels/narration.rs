@@ -11,8 +11,8 @@ use crate::palette::text_on;
 use crate::runlog::Driver;
 use crate::time::Time;
 use crate::view::{
-    Details, Happening, NodeShare, before_virtual_time, node_name, node_shares, percent, record_words, result_words,
-    summary_figures, time_words, unfinished_words, work_split_words,
+    Details, Happening, NodeShare, before_virtual_time, disturbance_words, node_name, node_shares, percent,
+    record_words, result_words, summary_figures, time_words, unfinished_words, work_split_words,
 };
 
 const SENTENCE_HEIGHT_PT: f32 = 3.25 * GRID;
@@ -102,6 +102,12 @@ fn sentence(ui: &mut Ui, session: &Session, look: Look) {
     let language = session.language();
     let stage = session.stage();
     let sentence = match &stage.phase {
+        Phase::Preparing if session.loading().is_some_and(|loading| loading.traced.share > 0.0) => word!(
+            language,
+            "The run begins when its picture is traced",
+            "A execução começa quando sua imagem está calculada"
+        )
+        .to_owned(),
         Phase::Preparing => word!(
             language,
             "Reading and compiling the scene, and estimating its cost …",
@@ -199,14 +205,22 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
         let more = stage.narrator().events_so_far().saturating_sub(lines);
         events(ui, stage.narrator().events().rev().take(lines), more, stage, look, language);
     });
-    let parts = work_split_words(stage.state(), language).unwrap_or_default();
+    let disturbed = disturbance_words(result.disturbance, language);
+    let parts = work_split_words(stage.state(), language);
+    let texts = [
+        disturbed.as_ref().zip(parts.as_ref()).map(|(disturbed, parts)| format!("{disturbed}. {parts}")),
+        disturbed.clone(),
+        parts.filter(|_| disturbed.is_none()),
+    ];
     let height =
-        |size: f32| ui.painter().layout(parts.clone(), theme::regular(size), look.text, right.width()).size().y;
-    // The sentence is left out rather than cut off: the bar shows the shares too.
-    let fits = [theme::BODY, theme::SMALL].into_iter().find(|&size| height(size) <= right.height());
-    if let Some(size) = fits.filter(|_| right.width() > 12.0 * GRID) {
+        |text: &str, size: f32| ui.painter().layout(text.to_owned(), theme::regular(size), look.text, right.width());
+    // A sentence is left out rather than cut off: the bar shows the shares too.
+    let sizes = |text: String| [theme::BODY, theme::SMALL].map(|size| (text.clone(), size));
+    let mut tried = texts.into_iter().flatten().flat_map(sizes);
+    let fits = tried.find(|(text, size)| height(text, *size).size().y <= right.height());
+    if let Some((text, size)) = fits.filter(|_| right.width() > 12.0 * GRID) {
         ui.scope_builder(UiBuilder::new().max_rect(right), |ui| {
-            ui.add(Label::new(RichText::new(&parts).font(theme::regular(size)).color(look.text)).wrap());
+            ui.add(Label::new(RichText::new(text).font(theme::regular(size)).color(look.text)).wrap());
         });
     }
 }

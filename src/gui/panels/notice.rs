@@ -1,13 +1,12 @@
 //! Notices that float over the panels: messages, errors, and the progress of loading and exporting.
 
-use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, Pos2, ProgressBar, RichText, Stroke, Ui};
+use egui::{Align2, Area, Context, Frame, Id, Label, LayerId, Order, Pos2, RichText, Stroke, Ui};
 
-use crate::gui::session::{ExportProgress, Notice, NoticeKind};
+use crate::gui::session::{ExportProgress, LoadingProgress, Notice, NoticeKind, TracedShare};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button};
+use crate::gui::widgets::{Emphasis, button, progress};
 use crate::language::{Language, say, word};
-use crate::view::fraction;
 
 /// Action of a notice's button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,52 +42,48 @@ pub fn show(notice: &Notice, waiting: usize, ctx: &Context, at: Pos2, language: 
     })
 }
 
-/// Shows that the file `name` is being read and compiled.
-pub fn loading(ctx: &Context, at: Pos2, name: &str, language: Language) {
+/// Shows that a file is being read and compiled, or its picture traced. Returns its upper edge, and whether Cancel was
+/// pressed.
+pub fn loading(ctx: &Context, at: Pos2, loading: &LoadingProgress<'_>, language: Language) -> (f32, bool) {
     let look = Look::of(ctx);
-    floating(ctx, "notice", at, |ui| {
-        ui.add(egui::Spinner::new().size(2.0 * GRID).color(look.accent));
-        let text = say!(language, "Reading and compiling {name} …", "Lendo e compilando {name} …");
-        ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
-    });
+    let LoadingProgress { name, traced: TracedShare { share, elapsed_s }, can_cancel } = loading;
+    floating(ctx, "loading", at, |ui| {
+        let text = |text: String, colour| RichText::new(text).font(theme::regular(theme::BODY)).color(colour);
+        if *share > 0.0 {
+            let about = word!(language, "Tracing the picture", "Calculando a imagem");
+            ui.label(text(about.into(), look.text));
+            progress::bar(ui, *share, about);
+            ui.label(text(progress::words(*share, *elapsed_s, language), look.quiet));
+        } else {
+            ui.label(text(say!(language, "Reading and compiling {name} …", "Lendo e compilando {name} …"), look.text));
+        }
+        let is_cancelled = *can_cancel && cancel(ui, language);
+        (ui.max_rect().top() - GRID, is_cancelled)
+    })
 }
 
 /// Shows the progress of an export. Returns its upper edge, and whether Cancel was pressed.
-pub fn export_progress(ctx: &Context, at: Pos2, progress: ExportProgress<'_>, language: Language) -> (f32, bool) {
-    let ExportProgress { name, elapsed_s, share, waiting } = progress;
+pub fn export_progress(ctx: &Context, at: Pos2, export: ExportProgress<'_>, language: Language) -> (f32, bool) {
+    let ExportProgress { name, elapsed_s, share, waiting } = export;
     let look = Look::of(ctx);
     floating(ctx, "export", at, |ui| {
         let text = say!(language, "Writing {name}", "Gravando {name}");
-        ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
-        let done = fraction(share);
-        let done =
-            time_left(elapsed_s, share, language).map_or_else(|| done.clone(), |left| format!("{done} · {left}"));
-        ui.visuals_mut().extreme_bg_color = look.hairline;
-        let bar = ProgressBar::new(share as f32).desired_width(16.0 * GRID).desired_height(GRID).fill(look.accent);
-        ui.add(bar);
+        ui.label(RichText::new(&text).font(theme::regular(theme::BODY)).color(look.text));
+        progress::bar(ui, share, &text);
+        let done = progress::words(share, elapsed_s, language);
         let others = if waiting > 0 {
             say!(language, " · then {waiting} more", " · depois mais {waiting}")
         } else {
             String::new()
         };
         ui.label(RichText::new(done + &others).font(theme::regular(theme::BODY)).color(look.quiet));
-        let is_cancelled = button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked();
-        (ui.max_rect().top() - GRID, is_cancelled)
+        (ui.max_rect().top() - GRID, cancel(ui, language))
     })
 }
 
-/// Returns a text of the time that is left; `None` while there is too little to estimate it from.
-fn time_left(secs: f64, share: f64, language: Language) -> Option<String> {
-    let left = (secs / share - secs).ceil();
-    if secs < 1.5 || share < 0.01 || left < 1.0 {
-        return None;
-    }
-    let minutes = (left / 60.0).round();
-    Some(if left < 90.0 {
-        say!(language, "about {left} s left", "faltam cerca de {left} s")
-    } else {
-        say!(language, "about {minutes} min left", "faltam cerca de {minutes} min")
-    })
+/// Shows the button Cancel. Returns whether it was pressed.
+fn cancel(ui: &mut Ui, language: Language) -> bool {
+    button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked()
 }
 
 /// Shows content in a frame over all panels, with its lower right corner at `at`. It floats so that its appearance
@@ -118,20 +113,4 @@ pub fn drop_here(ui: &Ui, language: Language) {
     painter.rect_stroke(frame, 12.0, Stroke::new(2.0, look.accent), egui::StrokeKind::Inside);
     let text = word!(language, "Drop a scene, a lesson or a recorded run", "Solte uma cena, lição ou execução gravada");
     painter.text(area.center(), Align2::CENTER_CENTER, text, theme::strong(theme::LARGE), look.text);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn time_left_is_estimated_from_the_share() {
-        let language = Language::English;
-        assert_eq!(time_left(10.0, 0.25, language).as_deref(), Some("about 30 s left"));
-        assert_eq!(time_left(60.0, 0.25, language).as_deref(), Some("about 3 min left"));
-        assert_eq!(
-            [time_left(1.0, 0.25, language), time_left(10.0, 0.0, language), time_left(10.0, 1.0, language)],
-            [None, None, None]
-        );
-    }
 }

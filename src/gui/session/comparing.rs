@@ -1,18 +1,18 @@
 //! The jobs of the Compare page: they run trials in virtual time.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::super::settings::Settings;
 use super::Session;
-use super::job_result::{CompareResult, Growth, GrowthPoint, JobResult, TracedOnce};
+use super::job_result::{CompareResult, Growth, GrowthPoint, JobResult};
 use super::jobs::Jobs;
+use super::tracing::{TracingJob, TracingProgress};
 use crate::balance::Strategy;
-use crate::cancel::CancelToken;
-use crate::driver::TracedPicture;
+use crate::driver::{CostedPicture, PictureCache};
 use crate::language::Language;
 use crate::palette::Rgb;
 use crate::runlog::{Driver, Metrics};
+use crate::scene::Opened;
 use crate::sim::{Change, PixelCosts, Trial};
 use crate::tracer::Tracer;
 use crate::view::ComparedRun;
@@ -20,6 +20,7 @@ use crate::view::ComparedRun;
 /// The subject of a comparison: the run on the stage as a trial.
 #[derive(Clone)]
 pub struct ComparisonSubject {
+    opened: Arc<Opened>,
     tracer: Arc<Tracer>,
     /// The run on the stage, to be run in virtual time.
     pub trial: Trial,
@@ -35,7 +36,8 @@ impl ComparisonSubject {
 
     /// Whether a picture that was traced for this subject can be used for the other.
     pub fn has_picture_of(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.tracer, &other.tracer)
+        self.opened.text == other.opened.text
+            && (self.tracer.size(), self.tracer.quality()) == (other.tracer.size(), other.tracer.quality())
     }
 
     /// Returns the trial at the pace at which it lasts in virtual time as long as set.
@@ -47,33 +49,6 @@ impl ComparisonSubject {
     }
 }
 
-/// Progress of tracing the picture of a comparison.
-#[derive(Default)]
-pub struct TracingProgress {
-    done: AtomicU32,
-    cancel: CancelToken,
-}
-
-impl TracingProgress {
-    /// Returns the number of traced pixels.
-    pub fn done(&self) -> u32 {
-        self.done.load(Ordering::Relaxed)
-    }
-
-    /// Cancels the tracing.
-    pub fn cancel(&self) {
-        self.cancel.cancel();
-    }
-}
-
-/// Source of a comparison's picture.
-pub enum PictureSource {
-    /// The job traces the picture, and reports its progress here.
-    Untraced(Arc<TracingProgress>),
-    /// The picture is traced already.
-    Traced(Arc<TracedOnce>),
-}
-
 /// A trial to run, with the number of its column and its changes.
 pub type NumberedTrial = (u64, Vec<Change>, Trial);
 
@@ -81,8 +56,9 @@ impl Session {
     /// Returns the run on the stage as a subject of comparison: in virtual time, with all changes that the user has
     /// made to it so far. `None` until the scene is compiled.
     pub fn subject(&self) -> Option<ComparisonSubject> {
-        let recorded = self.recorded.as_ref().map(|recorded| Arc::clone(&recorded.tracer));
-        let tracer = recorded.or_else(|| self.prepared.as_ref().map(|prepared| Arc::clone(&prepared.tracer)))?;
+        let recorded = self.recorded.as_ref().map(|recorded| (&recorded.opened, &recorded.tracer));
+        let prepared = || self.prepared.as_ref().map(|prepared| (&prepared.opened, &prepared.tracer));
+        let (opened, tracer) = recorded.or_else(prepared)?;
         let mut trial = Trial::of(&self.stage.log);
         let has_own_pace = self.recorded.is_some() || self.header().driver == Driver::Sim;
         let settings = (!has_own_pace).then(|| Settings { driver: Driver::Sim, ..self.settings.clone() });
@@ -90,45 +66,49 @@ impl Session {
         if self.header().driver == Driver::WorkStealing {
             trial = trial.with(Change::Strategy(Strategy::Ring));
         }
-        (tracer.size() == trial.header.size).then_some(ComparisonSubject { tracer, trial, settings })
+        let (opened, tracer) = (Arc::clone(opened), Arc::clone(tracer));
+        (tracer.size() == trial.header.size).then_some(ComparisonSubject { opened, tracer, trial, settings })
     }
 
-    /// Starts the job that traces the picture, unless it is traced, and runs the trials. Returns the job's number.
-    pub fn compare(&mut self, subject: &ComparisonSubject, picture: PictureSource, trials: Vec<NumberedTrial>) -> u64 {
+    /// Starts the job that traces the picture, unless it is kept, and runs the trials. Returns the job's number, and
+    /// its progress until the picture is traced.
+    pub fn compare(&mut self, subject: &ComparisonSubject, trials: Vec<NumberedTrial>) -> (u64, TracingProgress) {
         let language = self.language;
-        self.jobs.compare(subject.clone(), picture, trials, self.ground, language)
+        let progress = TracingProgress::new(subject.tracer.size().pixels(), self.clock);
+        let work = (subject.clone(), Arc::clone(&self.pictures), progress.job());
+        (self.jobs.compare(work, trials, self.ground, language), progress)
     }
 
-    /// Starts the job that runs the subject by each strategy with one to eight machines. Returns the job's number.
-    pub fn grow(&mut self, subject: &ComparisonSubject, picture: Arc<TracedOnce>) -> u64 {
+    /// Starts the job that runs the subject by each strategy with one to eight machines. Returns the job's number, and
+    /// its progress if the picture has to be traced again.
+    pub fn grow(&mut self, subject: &ComparisonSubject) -> (u64, TracingProgress) {
         let language = self.language;
-        self.jobs.grow(subject.clone(), picture, language)
+        let progress = TracingProgress::new(subject.tracer.size().pixels(), self.clock);
+        let work = (subject.clone(), Arc::clone(&self.pictures), progress.job());
+        (self.jobs.grow(work, language), progress)
     }
 }
 
+/// The subject of a job, the kept pictures, and the job's progress.
+type Work = (ComparisonSubject, Arc<PictureCache>, TracingJob);
+
 impl Jobs {
-    fn compare(
-        &mut self,
-        subject: ComparisonSubject,
-        picture: PictureSource,
-        trials: Vec<NumberedTrial>,
-        ground: Rgb,
-        language: Language,
-    ) -> u64 {
+    fn compare(&mut self, work: Work, trials: Vec<NumberedTrial>, ground: Rgb, language: Language) -> u64 {
         let number = self.number();
         let failed = move |why| JobResult::Compared(number, CompareResult::Failed(why));
         self.start_many(language, "compare", failed, move |send| {
             let send = |result| send(JobResult::Compared(number, result));
-            let picture = match picture {
-                PictureSource::Traced(picture) => picture,
-                PictureSource::Untraced(progress) => match trace_once(&subject.tracer, &progress) {
-                    Ok(None) => return,
-                    Ok(Some(picture)) => picture,
-                    Err(why) => return send(CompareResult::Failed(why)),
-                },
+            let picture = match picture_of(&work) {
+                Ok(None) => return,
+                Ok(Some(picture)) => picture,
+                Err(why) => return send(CompareResult::Failed(why)),
             };
-            send(CompareResult::Picture(Arc::clone(&picture)));
+            send(CompareResult::Traced);
+            let (subject, _, job) = work;
             for (id, changes, trial) in trials {
+                if job.cancel.is_cancelled() {
+                    return;
+                }
                 let log = Arc::new(subject.paced(trial, &picture.costs).run(&picture.costs));
                 send(CompareResult::Run(id, Box::new(ComparedRun::new(changes, log, &picture.pixels, ground))));
             }
@@ -136,22 +116,29 @@ impl Jobs {
         number
     }
 
-    fn grow(&mut self, subject: ComparisonSubject, picture: Arc<TracedOnce>, language: Language) -> u64 {
+    fn grow(&mut self, work: Work, language: Language) -> u64 {
         let number = self.number();
         let failed = move |why| JobResult::Compared(number, CompareResult::Failed(why));
         self.start_many(language, "grow", failed, move |send| {
-            let trial = subject.paced(subject.trial.clone(), &picture.costs);
-            send(JobResult::Compared(number, CompareResult::Growth(growth_of(&trial, &picture.costs))));
+            let send = |result| send(JobResult::Compared(number, result));
+            match picture_of(&work) {
+                Ok(Some(picture)) => {
+                    let (subject, ..) = work;
+                    let trial = subject.paced(subject.trial.clone(), &picture.costs);
+                    send(CompareResult::Growth(growth_of(&trial, &picture.costs)));
+                }
+                Ok(None) => {}
+                Err(why) => send(CompareResult::Failed(why)),
+            }
         });
         number
     }
 }
 
-/// Traces the picture on all cores; `None` if that is cancelled.
-fn trace_once(tracer: &Arc<Tracer>, progress: &TracingProgress) -> Result<Option<Arc<TracedOnce>>, String> {
-    let done = |more| _ = progress.done.fetch_add(more, Ordering::Relaxed);
-    let traced = TracedPicture::by_pixel(tracer, &done, &progress.cancel).map_err(|error| error.to_string())?;
-    Ok(traced.map(|(pixels, costs)| Arc::new(TracedOnce { pixels, costs })))
+/// Returns the picture of the subject, traced on all cores if it is not kept; `None` if that is cancelled.
+fn picture_of((subject, kept, job): &Work) -> Result<Option<Arc<CostedPicture>>, String> {
+    let picture = kept.get_or_trace(&subject.opened.text, &subject.tracer, &|more| job.add(more), &job.cancel);
+    picture.map_err(|error| error.to_string())
 }
 
 /// Runs the trial by each strategy with one to eight machines. The last machine is slow if one of the trial's is.

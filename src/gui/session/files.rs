@@ -8,8 +8,7 @@ use super::job_result::{FileChange, Prepared, Recorded};
 use super::opening::{Opening, unreadable_scene};
 use super::run_source::RunSource;
 use super::stage::{Phase, Stage};
-use super::{Loading, Session};
-use super::{Notice, NoticeCause, NoticeKind};
+use super::{DEMONSTRATION, Notice, NoticeCause, NoticeKind, Session};
 use crate::driver::Retrace;
 use crate::language::say;
 use crate::output::is_same_file;
@@ -22,7 +21,7 @@ impl Session {
     /// Shows a scene, run or lesson that is already read.
     pub fn show(&mut self, opening: Opening) {
         let name = match &opening {
-            Opening::Scene(opened) => opened.name.clone(),
+            Opening::Scene(opened) => return self.load_scene(Arc::clone(opened)),
             Opening::Run(log) => log.header.scene.clone(),
             Opening::Lesson(lesson) => lesson.name.clone(),
         };
@@ -70,7 +69,7 @@ impl Session {
         }
         match Opened::from_text(&header.scene, &header.scene_text) {
             Ok(opened) => {
-                self.settings = settings;
+                self.settings_before = Some(std::mem::replace(&mut self.settings, settings));
                 self.show(Opening::Scene(Arc::new(opened)));
             }
             Err(error) => self.trouble(unreadable_scene(&error, language)),
@@ -186,19 +185,6 @@ impl Session {
         }
     }
 
-    /// Starts the job that reads with `read` and compiles. If it `reads_file` for the user and succeeds, notices about
-    /// files end.
-    fn load(
-        &mut self,
-        name: String,
-        reads_file: bool,
-        read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
-    ) {
-        let language = self.language;
-        let job = self.jobs.prepare(read, &self.settings, language);
-        self.loading = Some(Loading { job, name, reads_file, started: self.clock });
-    }
-
     /// Starts a run of a compiled scene.
     pub(super) fn show_scene(&mut self, prepared: Prepared) {
         let language = self.language;
@@ -207,9 +193,6 @@ impl Session {
             self.remember(path.clone());
         }
         self.jobs.watch(path, language);
-        if !self.is_camera_moving() {
-            self.scene_camera = Some(prepared.opened.scene.camera);
-        }
         self.prepared = Some(prepared);
         self.recorded = None;
         self.restart();
@@ -223,9 +206,10 @@ impl Session {
     pub(super) fn report_unopened(&mut self, why: String) {
         let language = self.language;
         self.camera_move = None;
+        self.release_run();
         if self.stage.phase == Phase::Preparing {
             // The error is still to be read.
-            self.load("ten-objects".into(), false, || Opening::read("ten-objects"));
+            self.load(DEMONSTRATION.into(), false, || Opening::read(DEMONSTRATION));
         }
         self.trouble_with_file(say!(language, "Not opened. {why}", "Não aberto. {why}"));
     }

@@ -8,10 +8,9 @@ use super::super::settings::Settings;
 use crate::balance::Strategy;
 use crate::lesson::Lesson;
 use crate::palette::Rgb;
-use crate::picture::{Colour, Frame, Quality, Size};
+use crate::picture::{Frame, Quality, Size};
 use crate::runlog::{Driver, RunLog};
 use crate::scene::Opened;
-use crate::sim::PixelCosts;
 use crate::study::accuracy::{Point, Reference};
 use crate::tracer::{SceneStats, Tracer};
 use crate::view::{ComparedRun, Inspected, RunView};
@@ -70,8 +69,10 @@ pub enum FileChange {
 
 /// What a job has read and compiled.
 pub enum Ready {
-    /// A compiled scene.
+    /// A compiled scene; its picture is traced if the run will be in virtual time.
     Scene(Prepared),
+    /// The same compiled scene as before, whose picture is traced now.
+    Traced(Prepared),
     /// A recorded run and its tracer.
     Run(Recorded),
     /// A lesson.
@@ -132,14 +133,6 @@ pub struct Thumbnail {
     pub rgb: Vec<u8>,
 }
 
-/// A picture that is traced once for all trials of a comparison.
-pub struct TracedOnce {
-    /// All pixels in scan order.
-    pub pixels: Vec<Colour>,
-    /// Cost of each pixel on the reference machine, computed from its rays.
-    pub costs: PixelCosts,
-}
-
 /// Speedup and efficiency of the strategies over the number of machines.
 pub struct Growth {
     /// For each strategy its points by number of machines.
@@ -163,8 +156,8 @@ pub struct GrowthPoint {
 
 /// A part of a comparison.
 pub enum CompareResult {
-    /// The traced picture.
-    Picture(Arc<TracedOnce>),
+    /// The picture is traced.
+    Traced,
     /// The run of a trial, by the number of its column.
     Run(u64, Box<ComparedRun>),
     /// Speedup and efficiency over the number of machines.

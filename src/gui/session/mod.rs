@@ -8,6 +8,7 @@ mod files;
 mod inspecting;
 mod job_result;
 mod jobs;
+mod loading;
 mod measuring;
 mod moving;
 mod notice;
@@ -18,40 +19,43 @@ mod run_source;
 mod stage;
 mod teaching;
 mod timing;
+mod tracing;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::settings::undo::{Gesture, UndoHistory};
+use super::settings::undo::{Gesture, Step, UndoHistory};
 use super::settings::{Settings, milliseconds};
 use crate::balance::NodeId;
-use crate::driver::{Run, cores};
-use crate::language::{Language, say};
+use crate::driver::{PictureCache, cores};
+use crate::language::{Language, say, word};
 use crate::palette::Rgb;
 use crate::runlog::Header;
 use crate::scenario::Command;
-use crate::scene::{Camera, Opened};
+use crate::scene::{Opened, built_in};
 use crate::time::Time;
-use opening::Opening;
 
-pub use comparing::{ComparisonSubject, PictureSource, TracingProgress};
+pub use comparing::ComparisonSubject;
 pub use exporting::{Export, ExportProgress, PictureExport};
 use exporting::{ExportJob, PendingExport};
 use inspecting::Inspecting;
 use job_result::Ready;
 pub use job_result::{
     CameraPreview, CompareResult, Finding, Growth, GrowthPoint, JobResult, Prepared, PreparedLesson, Purpose, Recorded,
-    Thumbnail, TracedOnce,
+    Thumbnail,
 };
 use jobs::Jobs;
+use loading::Loading;
+pub use loading::LoadingProgress;
 use moving::CameraMove;
 use notice::Notices;
 pub use notice::{Notice, NoticeCause, NoticeKind};
 use run_source::RunSource;
 pub use stage::{Phase, Stage};
 pub use teaching::PreparingLesson;
+pub use tracing::{TracedShare, TracingProgress};
 
 /// The run on the stage, the settings and the background jobs.
 pub struct Session {
@@ -63,9 +67,13 @@ pub struct Session {
     /// The recorded run, if one is on the stage.
     recorded: Option<Recorded>,
     loading: Option<Loading>,
+    /// The settings of the run on the stage, while the next run is loaded with other settings.
+    settings_before: Option<Settings>,
+    /// Whether the run on the stage waits while the next one is loaded.
+    holds_run: bool,
+    /// The pictures that were traced last for virtual time.
+    pictures: Arc<PictureCache>,
     inspecting: Inspecting,
-    /// The camera of the scene file.
-    scene_camera: Option<Camera>,
     camera_move: Option<CameraMove>,
     /// Number of preview jobs in progress.
     camera_jobs: usize,
@@ -94,15 +102,8 @@ pub struct Session {
     clock: f64,
 }
 
-/// The scene, run or lesson that is being read and compiled.
-struct Loading {
-    job: u64,
-    name: String,
-    /// Whether the user has opened it, so that notices about files end.
-    reads_file: bool,
-    /// egui's clock at the start, in seconds.
-    started: f64,
-}
+/// Name of the built-in scene of the demonstration.
+pub const DEMONSTRATION: &str = "ten-objects";
 
 impl Session {
     /// Creates a session with an empty stage; the caller has to open a scene.
@@ -115,8 +116,10 @@ impl Session {
             prepared: None,
             recorded: None,
             loading: None,
+            settings_before: None,
+            holds_run: false,
+            pictures: Arc::default(),
             inspecting: Inspecting::default(),
-            scene_camera: None,
             camera_move: None,
             camera_jobs: 0,
             jobs: Jobs::new(ctx.clone()),
@@ -151,12 +154,7 @@ impl Session {
         if let Some(recorded) = self.recorded.clone() {
             return self.play(recorded);
         }
-        match &self.prepared {
-            Some(prepared) if prepared.is_for(&self.settings) => self.begin(prepared.clone()),
-            Some(prepared) => self.show(Opening::Scene(Arc::clone(&prepared.opened))),
-            // The first scene is still being compiled; its run will start with the settings of that time.
-            None => {}
-        }
+        self.restart_live();
     }
 
     /// Updates the stage and handles the results of jobs since the last call; `clock` is egui's, in seconds. Returns
@@ -178,6 +176,7 @@ impl Session {
                     }
                     match ready {
                         Ok(Ready::Scene(prepared)) => self.show_scene(prepared),
+                        Ok(Ready::Traced(prepared)) => self.begin(prepared),
                         Ok(Ready::Run(recorded)) => self.open_recorded(recorded),
                         Ok(Ready::Lesson(lesson)) => others.push(JobResult::LessonOpened(lesson)),
                         Err(why) => self.report_unopened(why),
@@ -233,8 +232,8 @@ impl Session {
     /// Undoes the last change of the settings.
     pub fn undo(&mut self) {
         let language = self.language;
-        if let Some(settings) = self.history.undo(&self.settings) {
-            let before = self.apply(settings);
+        if let Some(step) = self.history.undo(&self.settings, self.opened_scene()) {
+            let before = self.apply_step(step);
             let now = self.settings.difference(&before, language);
             self.note(say!(language, "Undone. Now: {now}", "Desfeito. Agora: {now}"));
         }
@@ -243,10 +242,29 @@ impl Session {
     /// Makes the undone change again.
     pub fn redo(&mut self) {
         let language = self.language;
-        if let Some(settings) = self.history.redo(&self.settings) {
-            let before = self.apply(settings);
+        if let Some(step) = self.history.redo(&self.settings, self.opened_scene()) {
+            let before = self.apply_step(step);
             let now = self.settings.difference(&before, language);
             self.note(say!(language, "Redone. Now: {now}", "Refeito. Agora: {now}"));
+        }
+    }
+
+    /// Brings back the demonstration: the first settings, its scene and its camera, in one change.
+    pub fn show_demonstration(&mut self) {
+        let (language, settings) = (self.language, Settings::default());
+        let Some(present) = self.opened_scene().filter(|_| !self.is_recorded()) else { return };
+        let text = built_in(DEMONSTRATION).unwrap_or_default();
+        match Opened::from_text(DEMONSTRATION, text) {
+            Ok(opened) if present.path.is_some() || present.text != opened.text => {
+                self.history.push_scene(self.settings.clone(), present);
+                self.apply_step(Step { settings, scene: Some(Arc::new(opened)) });
+                self.note(word!(
+                    language,
+                    "Back to the demonstration; Ctrl Z undoes it",
+                    "De volta à demonstração; Ctrl Z desfaz"
+                ));
+            }
+            _ => self.change(Gesture::Once, |now| *now = settings),
         }
     }
 
@@ -285,6 +303,10 @@ impl Session {
     /// Returns the compiled scene of live runs.
     pub fn prepared(&self) -> Option<&Prepared> {
         self.prepared.as_ref()
+    }
+
+    fn opened_scene(&self) -> Option<Arc<Opened>> {
+        self.prepared.as_ref().map(|prepared| Arc::clone(&prepared.opened))
     }
 
     /// Returns the scene of live runs.
@@ -338,11 +360,6 @@ impl Session {
         &self.jobs
     }
 
-    /// Returns the name of what is being read and compiled, and the elapsed seconds.
-    pub fn loading(&self) -> Option<(&str, f64)> {
-        self.loading.as_ref().map(|loading| (&*loading.name, self.clock - loading.started))
-    }
-
     /// Returns the notice to be read now.
     pub fn notice(&self) -> Option<&Notice> {
         self.notices.shown()
@@ -388,14 +405,32 @@ impl Session {
         self.measurements
     }
 
+    /// Applies a step of the undo history. Returns the settings before.
+    fn apply_step(&mut self, Step { settings, scene }: Step) -> Settings {
+        let Some(scene) = scene else { return self.apply(settings) };
+        self.return_to_present();
+        let before = std::mem::replace(&mut self.settings, settings);
+        self.settings_before.get_or_insert_with(|| before.clone());
+        self.camera_move = None;
+        self.load_scene(scene);
+        before
+    }
+
     /// Applies new settings to the run, restarting it if needed. Returns the settings before.
     fn apply(&mut self, settings: Settings) -> Settings {
         self.return_to_present();
         let before = std::mem::replace(&mut self.settings, settings);
         if self.settings.needs_restart(&before) {
+            self.settings_before.get_or_insert_with(|| before.clone());
             self.restart();
-            return before;
+        } else {
+            self.send_changes(&before);
         }
+        before
+    }
+
+    /// Sends the changes of the settings that take effect at once to the run.
+    fn send_changes(&mut self, before: &Settings) {
         let speeds = self.settings.all_speeds().zip(before.all_speeds());
         for (node, (speed, _)) in (0..).zip(speeds).filter(|(_, (speed, before))| speed != before) {
             self.stage.source.command(Command::Speed { node, speed });
@@ -409,38 +444,6 @@ impl Session {
                 let latency = latency.map(milliseconds);
                 self.stage.source.command(Command::OwnLatency { party, latency });
             }
-        }
-        before
-    }
-
-    /// Starts a live run of a compiled scene.
-    fn begin(&mut self, prepared: Prepared) {
-        if self.stage.phase == Phase::Running {
-            self.write_log();
-        }
-        let opened = &prepared.opened;
-        let work = prepared.work(self.settings.driver);
-        let header = self.settings.header(&opened.name, &opened.text, work, cores());
-        let run = Run::start(Arc::clone(&prepared.tracer), &header);
-        self.set_stage(Stage::new(RunSource::Live(run), header, self.ground), prepared.preview.clone());
-    }
-
-    /// Replaces the run on the stage.
-    fn set_stage(&mut self, stage: Stage, preview: Arc<[Rgb]>) {
-        self.stop_run();
-        self.runs_begun += 1;
-        self.stage = stage;
-        self.stage.show_preview(preview);
-        self.inspect_again();
-        self.end_camera_move();
-    }
-
-    /// Stops the run on the stage without waiting for its threads.
-    fn stop_run(&mut self) {
-        let last = std::mem::replace(&mut self.stage.source, RunSource::None);
-        last.stop();
-        if !last.has_ended() {
-            self.ending.push(last);
         }
     }
 }

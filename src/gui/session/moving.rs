@@ -60,7 +60,7 @@ impl Session {
 
     /// Moves the camera back to that of the scene.
     pub fn reset_camera(&mut self) {
-        if let Some(home) = self.scene_camera.filter(|_| self.is_camera_moved()) {
+        if let Some(home) = self.opened().map(|opened| opened.home_camera).filter(|_| self.is_camera_moved()) {
             self.move_camera(|_| home);
         }
     }
@@ -70,9 +70,10 @@ impl Session {
         if self.is_recorded() {
             return false;
         }
-        let now = self.camera_move.as_ref().map(|moving| moving.camera);
-        let now = now.or_else(|| self.prepared.as_ref().map(|prepared| prepared.opened.scene.camera));
-        self.scene_camera.zip(now).is_some_and(|(home, now)| home.eye != now.eye || home.look_at != now.look_at)
+        let Some(opened) = self.opened() else { return false };
+        let now = self.camera_move.as_ref().map_or(opened.scene.camera, |moving| moving.camera);
+        let home = opened.home_camera;
+        home.eye != now.eye || home.look_at != now.look_at
     }
 
     /// Returns the preview of the moving camera.

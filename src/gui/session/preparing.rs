@@ -8,23 +8,28 @@ use super::job_result::{JobResult, Prepared, Ready, Recorded};
 use super::jobs::Jobs;
 use super::opening::{Opening, unreadable_scene};
 use super::preview::{PREVIEW_STEP, PREVIEW_TIME, preview_pixels, with_preview};
-use crate::driver::{RAY_COST, probe};
+use super::tracing::TracingJob;
+use crate::driver::{PictureCache, RAY_COST, probe};
 use crate::language::{Language, say};
 use crate::picture::Size;
+use crate::runlog::Driver;
 use crate::scene::Opened;
 use crate::tracer::Tracer;
 use crate::view::RunView;
 
 impl Jobs {
-    /// Starts the job that reads with `read` and compiles the result. Returns the job's number.
-    pub fn prepare(
+    /// Starts the job that reads with `read` and compiles the result. For settings in virtual time it traces the
+    /// picture of a scene too. Returns the job's number.
+    pub(super) fn prepare(
         &mut self,
         read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
         settings: &Settings,
+        (kept, tracing): (Arc<PictureCache>, TracingJob),
         language: Language,
     ) -> u64 {
         let number = self.number();
         let (size, quality, division) = (settings.size, settings.quality, settings.division());
+        let is_virtual = settings.driver == Driver::Sim;
         self.start(language, "prepare", move || {
             let ready = read().and_then(|opening| match opening {
                 Opening::Scene(opened) => {
@@ -34,6 +39,12 @@ impl Jobs {
                     let cpu = estimate.whole_with_rests(&tracer, division);
                     let virtual_time = RAY_COST.mul_f64(estimate.rays as f64);
                     let preview = preview_pixels(&tracer);
+                    if is_virtual {
+                        let done = |more| tracing.add(more);
+                        // If cancelled, the run begins in real time, or nobody waits for the result.
+                        let traced = kept.get_or_trace(&opened.text, &tracer, &done, &tracing.cancel);
+                        traced.map_err(|error| error.to_string())?;
+                    }
                     Ok(Ready::Scene(Prepared { opened, tracer, preview, size, quality, cpu, virtual_time }))
                 }
                 Opening::Run(log) => {

@@ -1,40 +1,31 @@
 //! The job that prepares the runs of a lesson, and the change between them.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::Session;
 use super::job_result::{JobResult, PreparedLesson, Recorded};
 use super::jobs::Jobs;
 use super::preview::preview_pixels;
-use crate::cancel::CancelToken;
+use super::tracing::{TracingJob, TracingProgress};
+use super::{DEMONSTRATION, Session};
+use crate::driver::PictureCache;
 use crate::language::{Language, say};
 use crate::lesson::{Lesson, LessonError};
 use crate::view::RunView;
 
-/// A lesson that is being prepared.
+/// A lesson that is being prepared; dropping it cancels that.
 pub struct PreparingLesson {
     /// The job's number.
     pub job: u64,
-    /// Number of traced pixels.
-    traced: Arc<AtomicU32>,
-    pixels: u32,
-}
-
-impl PreparingLesson {
-    /// Returns the share that is done, 0 to 1.
-    pub fn share(&self) -> f32 {
-        self.traced.load(Ordering::Relaxed) as f32 / self.pixels.max(1) as f32
-    }
+    /// How far its pictures are traced.
+    pub progress: TracingProgress,
 }
 
 impl Session {
     /// Starts the job that runs the runs of a lesson.
     pub fn prepare_lesson(&mut self, lesson: Arc<Lesson>) -> PreparingLesson {
-        let language = self.language;
-        let (traced, pixels) = (Arc::new(AtomicU32::new(0)), lesson.pixels());
-        let job = self.jobs.prepare_lesson(lesson, Arc::clone(&traced), language);
-        PreparingLesson { job, traced, pixels }
+        let progress = TracingProgress::new(lesson.pixels(), self.clock);
+        let job = self.jobs.prepare_lesson(lesson, Arc::clone(&self.pictures), progress.job(), self.language);
+        PreparingLesson { job, progress }
     }
 
     /// Shows a run of a lesson from its beginning.
@@ -61,23 +52,25 @@ impl Session {
         }
         match before {
             Some(recorded) => self.play(recorded),
-            None if self.prepared.is_some() => {
-                self.recorded = None;
-                self.restart();
-            }
-            None => self.open("ten-objects"),
+            None if self.prepared.is_some() => self.restart_live(),
+            None => self.open(DEMONSTRATION),
         }
     }
 }
 
 impl Jobs {
-    fn prepare_lesson(&mut self, lesson: Arc<Lesson>, traced: Arc<AtomicU32>, language: Language) -> u64 {
+    fn prepare_lesson(
+        &mut self,
+        lesson: Arc<Lesson>,
+        kept: Arc<PictureCache>,
+        job: TracingJob,
+        language: Language,
+    ) -> u64 {
         let number = self.number();
         self.start(language, "lesson", move || {
-            let done = |more| _ = traced.fetch_add(more, Ordering::Relaxed);
-            // The pictures of a lesson are small, so the job cannot be cancelled.
-            let performed = lesson.perform(&done, &CancelToken::default());
+            let performed = lesson.perform(&kept, &|more| job.add(more), &job.cancel);
             let prepared = performed.and_then(|performed| {
+                // If cancelled, nobody waits for the result.
                 let performed = performed.unwrap_or_default();
                 lesson.check_moments(&performed)?;
                 let values = lesson.values(&performed);

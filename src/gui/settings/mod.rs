@@ -171,10 +171,15 @@ impl Settings {
         fixed(self) != fixed(other)
     }
 
-    /// Sets the number of machines. Machines that stay keep their speeds; new ones run at full speed.
+    /// Sets the number of machines. A preset of speeds stays; else machines that stay keep their speeds, and new ones
+    /// run at full speed.
     pub fn set_nodes(&mut self, nodes: usize) {
         let before = self.speeds.len();
+        let preset = SpeedPreset::ALL.into_iter().find(|preset| self.has_preset(*preset));
         self.speeds.resize(nodes.clamp(1, Self::MAX_NODES - self.spares.len()), 1.0);
+        if let Some(preset) = preset {
+            self.set_preset(preset);
+        }
         self.move_spare_links(before);
     }
 
@@ -311,6 +316,23 @@ mod tests {
         for change in with_restart {
             assert!(with(change).needs_restart(&default));
         }
+    }
+
+    #[test]
+    fn preset_of_speeds_stays_with_another_number_of_machines() {
+        for preset in SpeedPreset::ALL {
+            let settings = with(|s| {
+                s.set_preset(preset);
+                s.set_nodes(16);
+                s.set_nodes(5);
+            });
+            assert!(settings.has_preset(preset), "{preset:?}: {:?}", settings.speeds);
+        }
+        let own = with(|s| {
+            s.speeds[2] = 0.3;
+            s.set_nodes(10);
+        });
+        assert_eq!(own.speeds, [1.0, 1.0, 0.3, 1.0, 1.0, 1.0, 1.0, 0.1, 1.0, 1.0]);
     }
 
     #[test]

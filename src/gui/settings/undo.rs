@@ -1,14 +1,26 @@
 //! Undo and redo of settings.
 
+use std::sync::Arc;
+
 use super::Settings;
 use crate::balance::NodeId;
+use crate::scene::Opened;
 
 /// Settings before each change, and settings after the undone changes.
 #[derive(Debug, Default)]
 pub struct UndoHistory {
-    past: Vec<Settings>,
-    future: Vec<Settings>,
+    past: Vec<Step>,
+    future: Vec<Step>,
     gesture: Option<Gesture>,
+}
+
+/// Settings to go back to.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// The settings.
+    pub settings: Settings,
+    /// The scene, if the change replaced it.
+    pub scene: Option<Arc<Opened>>,
 }
 
 /// Origin of a change. Consecutive changes of one gesture, like a drag, are undone together.
@@ -32,10 +44,21 @@ impl UndoHistory {
         self.gesture = Some(gesture);
         self.future.clear();
         if !continues {
-            self.past.push(before);
-            let surplus = self.past.len().saturating_sub(Self::MAX_STEPS);
-            self.past.drain(..surplus);
+            self.add(Step { settings: before, scene: None });
         }
+    }
+
+    /// Stores the settings and the scene before a change of both.
+    pub fn push_scene(&mut self, before: Settings, scene: Arc<Opened>) {
+        self.end_gesture();
+        self.future.clear();
+        self.add(Step { settings: before, scene: Some(scene) });
+    }
+
+    fn add(&mut self, step: Step) {
+        self.past.push(step);
+        let surplus = self.past.len().saturating_sub(Self::MAX_STEPS);
+        self.past.drain(..surplus);
     }
 
     /// Ends the present gesture: the next change starts a new one.
@@ -43,20 +66,30 @@ impl UndoHistory {
         self.gesture = None;
     }
 
-    /// Returns the settings before the last change, if there is one, and keeps `now` for redo.
-    pub fn undo(&mut self, now: &Settings) -> Option<Settings> {
+    /// Returns the step before the last change, if there is one, and keeps `now` and its `scene` for redo.
+    pub fn undo(&mut self, now: &Settings, scene: Option<Arc<Opened>>) -> Option<Step> {
         self.gesture = None;
         let before = self.past.pop()?;
-        self.future.push(now.clone());
+        self.future.push(Step { settings: now.clone(), scene: scene.filter(|_| before.scene.is_some()) });
         Some(before)
     }
 
-    /// Returns the settings before the last undo, unless a change came after it, and keeps `now` for undo.
-    pub fn redo(&mut self, now: &Settings) -> Option<Settings> {
+    /// Returns the step before the last undo, unless a change came after it, and keeps `now` and its `scene` for undo.
+    pub fn redo(&mut self, now: &Settings, scene: Option<Arc<Opened>>) -> Option<Step> {
         self.gesture = None;
         let after = self.future.pop()?;
-        self.past.push(now.clone());
+        self.past.push(Step { settings: now.clone(), scene: scene.filter(|_| after.scene.is_some()) });
         Some(after)
+    }
+
+    /// Undoes all changes since the settings were `before`, if the history has these, and keeps `now` for redo.
+    pub fn undo_to(&mut self, before: &Settings, now: &Settings) {
+        self.gesture = None;
+        if let Some(index) = self.past.iter().rposition(|step| step.settings == *before) {
+            self.future.push(Step { settings: now.clone(), scene: None });
+            self.future.extend(self.past.drain(index + 1..).rev());
+            self.past.pop();
+        }
     }
 
     /// Whether there is a change to undo.
@@ -89,7 +122,8 @@ mod tests {
         history.push(with_latency(6), Gesture::Once);
         history.push(with_latency(7), Gesture::Once);
         let now = with_latency(8);
-        let undone: Vec<_> = std::iter::from_fn(|| history.undo(&now)).map(|settings| settings.latency).collect();
+        let undone: Vec<_> =
+            std::iter::from_fn(|| history.undo(&now, None)).map(|step| step.settings.latency).collect();
         assert_eq!(undone, [7.0, 6.0, 5.0, 0.0]);
         assert!(!history.can_undo() && history.can_redo());
     }
@@ -98,11 +132,21 @@ mod tests {
     fn redo_is_possible_until_the_next_change() {
         let mut history = UndoHistory::default();
         history.push(with_latency(1), Gesture::Once);
-        let undone = history.undo(&with_latency(2)).unwrap();
-        assert_eq!(history.redo(&undone), Some(with_latency(2)));
-        assert_eq!(history.undo(&with_latency(2)), Some(with_latency(1)));
+        let undone = history.undo(&with_latency(2), None).unwrap().settings;
+        assert_eq!(history.redo(&undone, None).unwrap().settings, with_latency(2));
+        assert_eq!(history.undo(&with_latency(2), None).unwrap().settings, with_latency(1));
         history.push(with_latency(1), Gesture::Once);
         assert!(!history.can_redo());
+    }
+
+    #[test]
+    fn several_changes_are_undone_at_once() {
+        let mut history = UndoHistory::default();
+        (0..4).for_each(|latency| history.push(with_latency(latency), Gesture::Once));
+        history.undo_to(&with_latency(9), &with_latency(4));
+        assert_eq!(history.past.len(), 4, "these settings are not in the history");
+        history.undo_to(&with_latency(1), &with_latency(4));
+        assert_eq!([2, 3, 4].map(|_| history.redo(&with_latency(1), None).unwrap().settings.latency), [2.0, 3.0, 4.0]);
     }
 
     #[test]
@@ -110,6 +154,6 @@ mod tests {
         let mut history = UndoHistory::default();
         (0..1000).for_each(|latency| history.push(with_latency(latency), Gesture::Once));
         assert_eq!(history.past.len(), UndoHistory::MAX_STEPS);
-        assert_eq!(history.undo(&with_latency(1000)), Some(with_latency(999)));
+        assert_eq!(history.undo(&with_latency(1000), None).unwrap().settings, with_latency(999));
     }
 }

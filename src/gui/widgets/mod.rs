@@ -6,6 +6,7 @@ pub mod number;
 pub mod paint;
 pub mod path_input;
 pub mod picture_view;
+pub mod progress;
 pub mod test_positions;
 pub mod theme;
 

@@ -46,14 +46,18 @@ impl TypedPath {
     /// # Errors
     /// A sentence, if the text is empty, names a directory, or the home directory is unknown.
     pub fn resolve(&self, home: Option<PathBuf>, language: Language) -> Result<PathBuf, String> {
-        let path = resolve(&self.text, home, language)?;
+        let path = resolve(self.full_path(), home, language)?;
         let meaning = self.meaning();
         Ok(if meaning.to_str().is_some() { path } else { meaning })
     }
 
+    fn full_path(&self) -> &str {
+        full_path(&self.text, self.path.parent().unwrap_or(Path::new("")))
+    }
+
     /// Returns the path with the real names of the directories whose text is unchanged.
     fn meaning(&self) -> PathBuf {
-        let typed = Path::new(self.text.trim());
+        let typed = Path::new(self.full_path());
         let unchanged = |real: &Path| Some(real.join(typed.strip_prefix(real.to_string_lossy().as_ref()).ok()?));
         let without_end = |path: &Path| path.components().collect::<PathBuf>();
         self.path.ancestors().find_map(unchanged).map_or_else(|| typed.to_owned(), |path| without_end(&path))
@@ -104,6 +108,23 @@ fn stem_range(path: &str) -> [usize; 2] {
     let name = path.rfind(std::path::is_separator).map_or(0, |separator| separator + 1);
     let end = path[name..].rfind('.').filter(|&dot| dot > 0).map_or(path.len(), |dot| name + dot);
     [name, end].map(|index| path[..index].chars().count())
+}
+
+/// Returns the path that the text means. A full path that was typed or pasted behind the `directory` that was there is
+/// taken as it is: behind `/home/me`, the text `/home/me//tmp/a.png` means `/tmp/a.png`. If the old extension has
+/// remained behind the new one, it is not repeated.
+fn full_path<'a>(text: &'a str, directory: &Path) -> &'a str {
+    let text = text.trim();
+    let begins_full_path = |rest: &&str| {
+        let is_home = rest.strip_prefix('~').is_some_and(|rest| rest.starts_with(std::path::is_separator));
+        is_home || Path::new(rest).is_absolute()
+    };
+    let behind = text.strip_prefix(directory.to_string_lossy().as_ref());
+    let full = behind.and_then(|rest| rest.strip_prefix(std::path::is_separator)).filter(begins_full_path);
+    let Some(full) = full else { return text };
+    let extension = Path::new(full).extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    let once = full.strip_suffix(extension).and_then(|rest| rest.strip_suffix('.')).unwrap_or(full);
+    if Path::new(once).extension().is_some_and(|before| before == extension) { once } else { full }
 }
 
 /// Turns typed text into the path of a file; a leading `~` is the home directory.
@@ -165,6 +186,30 @@ mod tests {
         assert_eq!(stem("picture"), "picture");
         assert_eq!(stem("/tmp/.hidden"), ".hidden");
         assert_eq!((stem("/tmp/"), stem("")), (String::new(), String::new()));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn full_path_behind_a_directory_is_taken_as_it_is() {
+        let mut typed = TypedPath::default();
+        let mut resolved = |text: &str| {
+            typed.set("/home/me/picture.png".into());
+            *typed.text_mut() = text.into();
+            typed.resolve(Some("/home/me".into()), Language::English).map(|path| path.display().to_string())
+        };
+        let cases = [
+            ("/home/me/other.png", "/home/me/other.png"),
+            ("/home/me//none/a.png", "/none/a.png"),
+            ("/home/me//none/a.png.png", "/none/a.png"),
+            ("/home/me//none/a.b.png", "/none/a.b.png"),
+            ("/home/me/~/a.png", "/home/me/a.png"),
+            ("~/a.png", "/home/me/a.png"),
+            ("/none//a.png", "/none//a.png"),
+            ("/home/me/~a.png", "/home/me/~a.png"),
+        ];
+        for (text, path) in cases {
+            assert_eq!(resolved(text).as_deref(), Ok(path), "{text}");
+        }
     }
 
     #[test]

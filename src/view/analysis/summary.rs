@@ -7,6 +7,7 @@ use crate::balance::{NodeId, Scheduler, Strategy};
 use crate::language::{Language, say, word};
 use crate::runlog::{Metrics, RunLog};
 use crate::time::Time;
+use crate::view::analysis::disturbance::{disturbance, disturbance_words};
 use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
@@ -23,6 +24,8 @@ pub struct Summary {
     pub efficiency: f64,
     /// From the last atom of the machine that finished first to the last atom of the machine that finished last.
     pub spread: Duration,
+    /// Share of the machines' time that was lost to other work of this computer ([`disturbance`]).
+    pub disturbance: f64,
 }
 
 impl Summary {
@@ -31,7 +34,7 @@ impl Summary {
     pub fn of(log: &RunLog) -> Option<Self> {
         let metrics = Metrics::of(log);
         let (makespan, ideal, efficiency) = (metrics.makespan()?, metrics.ideal()?, metrics.efficiency()?);
-        Some(Self { makespan, ideal, efficiency, spread: metrics.finish_spread() })
+        Some(Self { makespan, ideal, efficiency, spread: metrics.finish_spread(), disturbance: disturbance(log) })
     }
 }
 
@@ -55,6 +58,9 @@ pub fn result_words(state: &RunState, summary: &Summary, language: Language) -> 
         "Done in {takes}; shared perfectly it takes {ideal}: efficiency {efficiency}",
         "Pronta em {takes}; com divisão perfeita, {ideal}: eficiência {efficiency}"
     );
+    if let Some(disturbed) = disturbance_words(summary.disturbance, language) {
+        words += &format!(". {disturbed}");
+    }
     let machines = state.nodes().len();
     if machines == 1 {
         return words;
@@ -242,6 +248,7 @@ mod tests {
         ideal: Duration::from_millis(19_800),
         efficiency: 0.9687,
         spread: Duration::from_millis(300),
+        disturbance: 0.0,
     };
 
     /// Describes a run in which each machine, given as (speed, atoms, cost in ms), traces its atoms.

@@ -33,7 +33,7 @@ pub struct LineChart {
 pub struct Series {
     /// Name in the legend.
     pub name: String,
-    /// Colour, from [`series_hue`].
+    /// Colour, from [`series_hue`] where no machines are beside the chart.
     pub hue: Hue,
     /// Varied and measured values. A point that an axis cannot show is left out, and the line is broken there.
     pub points: Vec<(f64, f64)>,
@@ -51,7 +51,7 @@ pub enum Style {
     Dots,
     /// Hollow dots without a line: somebody else's measurements beside ours.
     Hollow,
-    /// A dashed line: a theory, a bound, somebody else's figures.
+    /// A dashed line: a theory, a bound, somebody else's figures, or a second curve of one colour.
     Dashed,
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::overlay::{Layer, Shades};
 use crate::balance::NodeId;
-use crate::palette::{Rgb, mix};
+use crate::palette::{Rgb, luminance, mix};
 use crate::picture::{Atom, Colour, Division, Size, srgb8};
 use crate::view::state::run_state::RunState;
 
@@ -197,11 +197,32 @@ impl Canvas {
         if !self.preview.is_empty() && !is_traced_now {
             // Fainter the more of the layer is shown, so that traced atoms stand out.
             let share = 0.35 - 0.2 * self.blend;
-            for (to, &preview) in self.shown[pixels.clone()].iter_mut().zip(&self.preview[pixels]) {
+            for (to, &preview) in self.shown[pixels.clone()].iter_mut().zip(&self.preview[pixels.clone()]) {
                 *to = mix(plain, preview, share);
             }
         } else {
-            self.shown[pixels].fill(plain);
+            self.shown[pixels.clone()].fill(plain);
+        }
+        if !(is_traced || is_traced_now) {
+            self.hatch(pixels);
+        }
+    }
+
+    /// Draws stripes over pixels that are not traced, on a light ground: there their shade could be that of a finished
+    /// picture. On a dark ground it is dark.
+    fn hatch(&mut self, pixels: Range<usize>) {
+        /// Distance of the stripes as a share of the picture's width.
+        const STRIPE_DISTANCE: u32 = 64;
+        const LEAST_DISTANCE_PX: usize = 6;
+        if luminance(self.ground) < 0.5 {
+            return;
+        }
+        let width = self.size.width() as usize;
+        let distance = ((self.size.width() / STRIPE_DISTANCE) as usize).max(LEAST_DISTANCE_PX);
+        for pixel in pixels {
+            if (pixel % width + pixel / width) % distance < distance / 3 {
+                self.shown[pixel] = mix(self.shown[pixel], self.ground, 0.7);
+            }
         }
     }
 }
@@ -252,13 +273,31 @@ mod tests {
         assert_eq!(canvas.take_dirty(), [3..4, 17..19]);
     }
 
-    #[test]
-    fn untraced_atom_has_a_shade_of_its_holder() {
+    /// A run that has begun, on this ground.
+    fn begun(ground: Rgb) -> Canvas {
         let header = sample_runs::header(&[1.0, 1.0], 20);
         let mut state = RunState::new(&header);
-        let mut canvas = Canvas::new(header.size, header.division, COLOURS.to_vec(), GROUND);
+        let mut canvas = Canvas::new(header.size, header.division, COLOURS.to_vec(), ground);
         sample_runs::records(&header).iter().take(6).for_each(|record| state.apply(record));
         state.take_touched().into_iter().for_each(|atoms| canvas.paint(atoms, &state));
+        canvas
+    }
+
+    #[test]
+    fn untraced_atoms_are_hatched_on_a_light_ground() {
+        let kinds = |canvas: &Canvas, row: u32| {
+            let mut pixels = canvas.rows(row..row + 1).to_vec();
+            pixels.sort_unstable();
+            pixels.dedup();
+            pixels.len()
+        };
+        let (light, dark) = (begun([250; 3]), begun(GROUND));
+        assert_eq!([kinds(&light, 0), kinds(&light, 5), kinds(&dark, 5)], [1, 2, 1]);
+    }
+
+    #[test]
+    fn untraced_atom_has_a_shade_of_its_holder() {
+        let canvas = begun(GROUND);
         let [traced, waiting, other] = [canvas.rows(0..1)[0], canvas.rows(5..6)[0], canvas.rows(15..16)[0]];
         assert_eq!(traced, COLOURS[0]);
         assert!(waiting[0] > GROUND[0] && waiting[0] < 80 && waiting[2] <= GROUND[2], "{waiting:?}");

@@ -256,7 +256,7 @@ fn parcels_show_their_counts() {
 fn result_replaces_the_parent() {
     let state = RunState::new(&sample_runs::header(&[1.0, 1.0], 30));
     let (makespan, ideal) = (Duration::from_millis(20_440), Duration::from_millis(19_890));
-    let summary = Summary { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO };
+    let summary = Summary { makespan, ideal, efficiency: 0.973, spread: Duration::ZERO, disturbance: 0.0 };
     let marks =
         drawn(&state, &RingOverlay { summary: Some(summary), ..RingOverlay::default() }, Time::from_secs(21.0), SIZE);
     assert!(texts(&marks).contains(&"20.4 s") && texts(&marks).contains(&"97 %"));

@@ -268,7 +268,7 @@ pub(super) fn sentences_after_it(log: &RunLog, language: Language) -> Said {
     said.extend(node_rows(state, log.end()).iter().map(|row| (Room::Same, row_words(row, language))));
     if let (Some(makespan), Some(ideal), Some(efficiency)) = (metrics.makespan(), metrics.ideal(), metrics.efficiency())
     {
-        let summary = Summary { makespan, ideal, efficiency, spread: metrics.finish_spread() };
+        let summary = Summary { makespan, ideal, efficiency, spread: metrics.finish_spread(), disturbance: 0.3 };
         said.push((Room::Same, result_words(state, &summary, language)));
         said.extend(
             summary_figures(&summary, language)

@@ -15,9 +15,9 @@ use anel::time::Time;
 use anel::tracer::Scratch;
 use anel::view::{
     Details, Layer, Narrator, RingLayout, RingOverlay, RunState, RunView, Snapshot, SnapshotCache, StepUnit, Summary,
-    TimeScale, TimeWindow, TimelineLayout, atom_words, axis, drawing_notes, flight_words, landmarks, node_rows,
-    node_shares, node_words, parent_words, picture_pixels, record_words, result_words, ring, step, time_words,
-    timeline, timeline_at, work_split_words,
+    TimeScale, TimeWindow, TimelineLayout, atom_words, axis, disturbance, drawing_notes, flight_words, landmarks,
+    node_rows, node_shares, node_words, parent_words, picture_pixels, record_words, result_words, ring, step,
+    time_words, timeline, timeline_at, work_split_words,
 };
 
 use super::assert_sentence;
@@ -53,7 +53,7 @@ fn metrics(log: &RunLog) -> Option<Summary> {
     assert!(traced <= log.records().len() as u64);
     let (makespan, ideal, efficiency) = (metrics.makespan()?, metrics.ideal()?, metrics.efficiency()?);
     assert!(efficiency.is_finite() && efficiency >= 0.0);
-    Some(Summary { makespan, ideal, efficiency, spread: metrics.finish_spread() })
+    Some(Summary { makespan, ideal, efficiency, spread: metrics.finish_spread(), disturbance: disturbance(log) })
 }
 
 /// Makes all texts and drawings, in the middle and at the end of the run.

@@ -12,7 +12,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, decimal, say, word};
 use crate::palette::{DISTINCT_COLOURS, node_colours};
 use crate::study::article_over_ideal;
-use crate::view::{Axis, Hue, LineChart, MIN_CHART_HEIGHT, Series, Style, TimeBudget, fraction, series_hue};
+use crate::view::{Axis, Hue, LineChart, MIN_CHART_HEIGHT, Series, Style, TimeBudget, fraction};
 
 /// Quantity of the chart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +57,11 @@ pub fn show(
     });
 }
 
+/// Colour and style of the curves of equal bands, the farm, the ring and the adaptive ring. The colours of machines
+/// belong to the machines, whose pictures are above.
+const CURVES: [(Hue, Style); 4] =
+    [(Hue::Quiet, Style::Line), (Hue::Text, Style::Line), (Hue::Accent, Style::Line), (Hue::Accent, Style::Dashed)];
+
 /// Builds the chart.
 fn chart(growth: &Growth, columns: &[CompareColumn], measure: Measure, language: Language) -> LineChart {
     let mut series = Vec::new();
@@ -65,7 +70,8 @@ fn chart(growth: &Growth, columns: &[CompareColumn], measure: Measure, language:
         let value = |run: &GrowthPoint| if is_speedup { run.speedup } else { run.efficiency };
         let name = Scheduler::Protocol(strategy.clone()).title(language);
         let points = runs.iter().map(|run| (run.machines as f64, value(run))).collect();
-        series.push(Series { name: name.to_owned(), hue: series_hue(i), points, style: Style::Line });
+        let (hue, style) = CURVES[i % CURVES.len()];
+        series.push(Series { name: name.to_owned(), hue, points, style });
         // The article has figures for equal machines, and for four machines with a slow fifth one.
         let article = |run: &GrowthPoint| {
             let over = article_over_ideal(strategy, run.machines, growth.slow.is_some())?;
@@ -74,7 +80,7 @@ fn chart(growth: &Growth, columns: &[CompareColumn], measure: Measure, language:
         };
         let points: Vec<_> = runs.iter().filter_map(article).collect();
         if !points.is_empty() {
-            series.push(Series { name: String::new(), hue: series_hue(i), points, style: Style::Hollow });
+            series.push(Series { name: String::new(), hue, points, style: Style::Hollow });
         }
     }
     let has_article = series.iter().any(|series| series.style == Style::Hollow);

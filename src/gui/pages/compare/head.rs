@@ -2,18 +2,18 @@
 
 use std::time::Duration;
 
-use egui::{Align, Label, Layout, ProgressBar, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+use egui::{Align, Label, Layout, RichText, Sense, Ui, UiBuilder, vec2};
 
 use super::{Compare, CompareColumn, MAX_RUNS, adding};
 use crate::balance::Strategy;
 use crate::gui::input::keys::UserCommand;
 use crate::gui::input::rate_menu;
-use crate::gui::session::Session;
+use crate::gui::session::{Session, TracedShare};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button};
+use crate::gui::widgets::{Emphasis, button, progress};
 use crate::language::{Language, word};
-use crate::view::{TimeScale, fraction, time_words};
+use crate::view::{TimeScale, time_words};
 
 impl Compare {
     /// Shows the line.
@@ -33,11 +33,15 @@ impl Compare {
                 if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
                     self.close(session);
                 }
-                if self.columns.len() < MAX_RUNS
+                // A job for one more run would trace the picture from its beginning.
+                if (self.is_traced && self.columns.len() < MAX_RUNS)
                     && let Some(change) = adding::strategies(ui, &self.strategies(), look, language)
                 {
                     self.add(vec![change]);
                     self.run(session);
+                }
+                if self.trouble.is_none() && self.progress(ui, session, look) {
+                    self.close(session);
                 }
                 let (text, colour) = match &self.trouble {
                     Some(why) => (why.as_str(), look.trouble),
@@ -50,9 +54,6 @@ impl Compare {
                         look.quiet,
                     ),
                 };
-                if self.trouble.is_none() {
-                    self.progress(ui, look, language);
-                }
                 let text = RichText::new(text).font(theme::regular(theme::SMALL)).color(colour);
                 let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 4.0 * GRID), Sense::hover());
                 // An error is shown even if it is cut off.
@@ -67,21 +68,19 @@ impl Compare {
         });
     }
 
-    /// Shows the progress of the picture, which is traced once for all runs.
-    fn progress(&self, ui: &mut Ui, look: Look, language: Language) {
+    /// Shows the progress of the picture, which is traced once for all runs, and the button that cancels the
+    /// comparison. Returns whether the button was pressed.
+    fn progress(&self, ui: &mut Ui, session: &Session, look: Look) -> bool {
+        let language = session.language();
         let is_waiting = self.columns.iter().any(|column| column.run.is_none());
-        let Some(subject) = self.subject.as_ref().filter(|_| is_waiting) else { return };
-        let share = match self.picture {
-            Some(_) => 1.0,
-            None => self.tracing.done() as f32 / subject.trial.header.size.pixels() as f32,
-        };
-        let bar =
-            ui.add(ProgressBar::new(share).desired_width(16.0 * GRID).desired_height(0.75 * GRID).fill(look.accent));
-        bar.widget_info(|| {
-            let text = word!(language, "of the picture is traced", "da imagem estão calculados");
-            WidgetInfo::labeled(Role::ProgressIndicator, true, format!("{} {text}", fraction(share.into())))
-        });
-        ui.ctx().request_repaint_after(Duration::from_millis(100));
+        let Some(tracing) = self.tracing.as_ref().filter(|_| is_waiting) else { return false };
+        ui.ctx().request_repaint_after(Duration::from_millis(250));
+        let TracedShare { share, elapsed_s } = session.traced_share(tracing);
+        let is_cancelled = button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked();
+        let text = RichText::new(progress::words(share, elapsed_s, language));
+        ui.label(text.font(theme::regular(theme::SMALL)).color(look.quiet));
+        progress::bar(ui, share, word!(language, "Tracing the picture", "Calculando a imagem"));
+        is_cancelled
     }
 
     /// Shows the buttons of the playback and the shown time.

@@ -7,7 +7,6 @@ mod growth;
 mod head;
 mod lanes;
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{RichText, Ui, UiBuilder};
@@ -15,9 +14,7 @@ use egui::{RichText, Ui, UiBuilder};
 use crate::balance::Strategy;
 use crate::export::{Comparison, ComparisonEntry};
 use crate::gui::input::keys::UserCommand;
-use crate::gui::session::{
-    CompareResult, ComparisonSubject, Growth, Phase, PictureSource, Session, TracedOnce, TracingProgress,
-};
+use crate::gui::session::{CompareResult, ComparisonSubject, Growth, Phase, Session, TracingProgress};
 use crate::gui::widgets::canvas_texture::CanvasTexture;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, word};
@@ -36,14 +33,15 @@ pub struct Compare {
     /// `Session::runs_begun` when the subject was taken last.
     run_seen: Option<usize>,
     subject: Option<ComparisonSubject>,
-    tracing: Arc<TracingProgress>,
-    picture: Option<Arc<TracedOnce>>,
+    /// Progress of the job that runs the trials; dropping it cancels the job.
+    tracing: Option<TracingProgress>,
+    /// Whether the picture of the subject is traced.
+    is_traced: bool,
     columns: Vec<CompareColumn>,
     last_id: u64,
     /// Number of the job that runs the trials.
     job: Option<u64>,
-    /// Number of the job that runs the growth curves, and its result.
-    growth: Option<(u64, Option<Growth>)>,
+    growth: Option<GrowthJob>,
     trouble: Option<String>,
     time: Playback,
     /// Whether the playback rate is set. It depends on the first runs only; added runs do not change it.
@@ -51,6 +49,14 @@ pub struct Compare {
     findings: Findings,
     /// Whether the page has paused the run on the stage.
     holds_run: bool,
+}
+
+/// The job that runs the growth curves, and its result.
+struct GrowthJob {
+    number: u64,
+    /// Dropping it cancels the job.
+    _tracing: TracingProgress,
+    result: Option<Growth>,
 }
 
 /// A run of the comparison.
@@ -72,8 +78,8 @@ impl Default for Compare {
             open: false,
             run_seen: None,
             subject: None,
-            tracing: Arc::default(),
-            picture: None,
+            tracing: None,
+            is_traced: false,
             columns: Vec::new(),
             last_id: 0,
             job: None,
@@ -125,9 +131,8 @@ impl Compare {
     /// Closes the page and resumes the run on the stage.
     pub fn close(&mut self, session: &mut Session) {
         self.open = false;
-        if self.picture.is_none() {
-            self.tracing.cancel();
-            self.subject = None;
+        if !self.is_traced {
+            (self.tracing, self.subject) = (None, None);
         }
         if std::mem::take(&mut self.holds_run) && session.stage().paused {
             session.set_run_paused(false);
@@ -159,13 +164,13 @@ impl Compare {
     pub fn take(&mut self, job: u64, result: CompareResult) {
         match result {
             CompareResult::Growth(growth) => {
-                if let Some((_, result)) = self.growth.as_mut().filter(|(number, _)| *number == job) {
-                    *result = Some(growth);
+                if let Some(of) = self.growth.as_mut().filter(|of| of.number == job) {
+                    of.result = Some(growth);
                 }
             }
             // Another comparison was begun meanwhile.
             _ if self.job != Some(job) => {}
-            CompareResult::Picture(picture) => self.picture = Some(picture),
+            CompareResult::Traced => self.is_traced = true,
             CompareResult::Run(id, run) => {
                 if let Some(column) = self.columns.iter_mut().find(|column| column.id == id) {
                     column.run = Some(run);
@@ -207,8 +212,17 @@ impl Compare {
         self.heading(ui, session, look);
         ui.add_space(GRID);
         if self.subject.is_none() {
-            note(ui, word!(language, "Reading and compiling the scene …", "Lendo e compilando a cena …"), look);
-            return;
+            let is_traced_for_run = session.loading().is_some_and(|loading| loading.traced.share > 0.0);
+            let text = if is_traced_for_run {
+                word!(
+                    language,
+                    "The comparison begins when the picture is traced",
+                    "A comparação começa quando a imagem está calculada"
+                )
+            } else {
+                word!(language, "Reading and compiling the scene …", "Lendo e compilando a cena …")
+            };
+            return note(ui, text, look);
         }
         let now = self.time.now();
         for run in self.columns.iter_mut().filter_map(|column| column.run.as_mut()) {
@@ -222,7 +236,7 @@ impl Compare {
         ui.add_space(2.0 * GRID);
         let area = ui.available_rect_before_wrap();
         ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
-            let growth = self.growth.as_ref().and_then(|(_, growth)| growth.as_ref());
+            let growth = self.growth.as_ref().and_then(|growth| growth.result.as_ref());
             if let Some(time) = self.findings.show(ui, &mut self.columns, growth, now, length, language) {
                 self.time.seek(time, true);
             }
@@ -241,7 +255,8 @@ impl Compare {
     /// Starts a new comparison if the run on the stage is not the present subject.
     fn update_subject(&mut self, session: &mut Session) {
         // While this page is open, the subject can change only with a new run.
-        if self.run_seen == Some(session.runs_begun()) {
+        // The run that is being loaded would replace it at once.
+        if self.run_seen == Some(session.runs_begun()) || session.loading().is_some() {
             return;
         }
         let Some(subject) = session.subject() else { return };
@@ -250,7 +265,7 @@ impl Compare {
             return;
         }
         let same_picture = self.subject.as_ref().is_some_and(|known| known.has_picture_of(&subject));
-        self.picture = self.picture.take().filter(|_| same_picture);
+        self.is_traced &= same_picture;
         let base = subject.trial.header.rules.strategy.clone();
         let mut strategies = vec![Strategy::Static, Strategy::Farm, Strategy::Ring];
         if !strategies.contains(&base) {
@@ -281,21 +296,15 @@ impl Compare {
         let Some(subject) = &self.subject else { return };
         let missing = self.columns.iter().filter(|column| column.run.is_none());
         let missing = missing.map(|column| (column.id, column.changes.clone(), column.trial.clone())).collect();
-        let picture = match &self.picture {
-            Some(picture) => PictureSource::Traced(Arc::clone(picture)),
-            None => {
-                self.tracing.cancel();
-                self.tracing = Arc::default();
-                PictureSource::Untraced(Arc::clone(&self.tracing))
-            }
-        };
-        self.job = Some(session.compare(subject, picture, missing));
+        let (job, tracing) = session.compare(subject, missing);
+        (self.job, self.tracing) = (Some(job), Some(tracing));
     }
 
     /// Starts the job that runs the growth curves, once the picture is traced.
     fn start_growth(&mut self, session: &mut Session) {
-        if let (Some(subject), Some(picture)) = (&self.subject, &self.picture) {
-            self.growth = Some((session.grow(subject, Arc::clone(picture)), None));
+        if let Some(subject) = self.subject.as_ref().filter(|_| self.is_traced) {
+            let (number, tracing) = session.grow(subject);
+            self.growth = Some(GrowthJob { number, _tracing: tracing, result: None });
         }
     }
 

@@ -6,16 +6,17 @@ mod panel;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
-use egui::{Align, Layout, ProgressBar, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align, Layout, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use crate::balance::Strategy;
 use crate::gui::input::keys::UserCommand;
-use crate::gui::session::{PreparedLesson, PreparingLesson, Purpose, Recorded, Session};
+use crate::gui::session::{PreparedLesson, PreparingLesson, Purpose, Recorded, Session, TracedShare};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, path_field};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button};
+use crate::gui::widgets::{Emphasis, button, progress};
 use crate::language::{Language, word};
 use crate::lesson::{BUILT_IN, Lesson};
 use crate::time::Time;
@@ -39,7 +40,10 @@ pub struct Learn {
 impl Learn {
     /// Opens or closes the list.
     pub fn toggle(&mut self) {
-        (self.open, self.trouble) = (!self.open, None);
+        if self.open {
+            return self.close();
+        }
+        (self.open, self.trouble) = (true, None);
         if self.lessons.is_empty() {
             // A test ensures that all built-in lessons can be read.
             self.lessons =
@@ -60,9 +64,9 @@ impl Learn {
         self.open
     }
 
-    /// Closes the list.
+    /// Closes the list. A lesson that is being prepared is cancelled: it would open by itself.
     pub fn close(&mut self) {
-        self.open = false;
+        (self.open, self.preparing) = (false, None);
     }
 
     /// Whether a lesson is open.
@@ -160,9 +164,7 @@ impl Learn {
             UserCommand::Dolly(false) if progress.is_over() => self.other_lessons(session),
             UserCommand::Select(number) if progress.waits() => progress.answer(number.into(), session),
             // What happens next stays hidden until the question is answered.
-            UserCommand::Dolly(false) | UserCommand::Pause | UserCommand::Live | UserCommand::Step(_, true)
-                if progress.waits() =>
-            {
+            _ if progress.waits() && tells_more(command, session) => {
                 session.note(word!(
                     language,
                     "First answer the question: press the number of an answer or click it",
@@ -206,15 +208,9 @@ impl Learn {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let close = word!(language, "Close the lessons", "Fechar as lições");
                 if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
-                    self.open = false;
+                    self.close();
                 }
-                if let Some(preparing) = &self.preparing {
-                    let bar = ProgressBar::new(preparing.share()).desired_width(20.0 * GRID);
-                    let bar = ui.add(bar.desired_height(0.75 * GRID).fill(look.accent));
-                    let name = word!(language, "Tracing the pictures of the lesson", "Calculando as imagens da lição");
-                    bar.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, name));
-                    ui.ctx().request_repaint_after(std::time::Duration::from_millis(100));
-                }
+                self.progress(ui, session, look);
             });
         });
         ui.add_space(GRID);
@@ -238,6 +234,23 @@ impl Learn {
             ui.add_space(GRID);
             self.own_lesson(ui, session, look);
         });
+    }
+
+    /// Shows the progress of the lesson that is being prepared, and the button that cancels it.
+    fn progress(&mut self, ui: &mut Ui, session: &Session, look: Look) {
+        let language = session.language();
+        let Some(preparing) = &self.preparing else { return };
+        ui.ctx().request_repaint_after(Duration::from_millis(250));
+        let TracedShare { share, elapsed_s } = session.traced_share(&preparing.progress);
+        let is_cancelled = button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet).clicked();
+        let text = RichText::new(progress::words(share, elapsed_s, language));
+        ui.label(text.font(theme::regular(theme::BODY)).color(look.quiet));
+        let about = word!(language, "Tracing the pictures of the lesson", "Calculando as imagens da lição");
+        progress::bar(ui, share, about);
+        ui.label(RichText::new(about).font(theme::regular(theme::BODY)).color(look.quiet));
+        if is_cancelled {
+            self.preparing = None;
+        }
     }
 
     /// Shows the path field for the user's own lessons.
@@ -265,6 +278,20 @@ impl Learn {
         if let Some(why) = &self.trouble {
             ui.label(RichText::new(why).font(theme::regular(theme::BODY)).color(look.trouble));
         }
+    }
+}
+
+/// Whether the command shows more of the run than the shown moment, or another run.
+fn tells_more(command: UserCommand, session: &Session) -> bool {
+    match command {
+        UserCommand::Dolly(false)
+        | UserCommand::Pause
+        | UserCommand::Live
+        | UserCommand::Restart
+        | UserCommand::Step(_, true) => true,
+        UserCommand::Arrow([1, 0]) => session.inspected_pixel().is_none(),
+        UserCommand::Jump(records, _) => records > session.stage().records_shown(),
+        _ => false,
     }
 }
 

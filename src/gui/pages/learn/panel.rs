@@ -64,15 +64,23 @@ fn next_text(is_over: bool, language: Language) -> &'static str {
     if is_over { word!(language, "Other lessons", "Outras lições") } else { word!(language, "Next", "Avançar") }
 }
 
-/// Returns the title of the lesson, the number of the step, and the right answers so far.
+/// Returns the title of the lesson, the number of the step, and the right answers so far; or while a question waits, the
+/// keys that answer it: they select no machine then.
 fn heading(progress: &LessonProgress, language: Language) -> String {
     let (title, number, all) = (progress.title(language), progress.step() + 1, progress.steps());
+    let heading = say!(language, "{title} · step {number} of {all}", "{title} · passo {number} de {all}");
     let [right, answered, _] = progress.score();
-    let score = match answered {
-        0 => String::new(),
-        _ => say!(language, " · right answers: {right} of {answered}", " · respostas certas: {right} de {answered}"),
-    };
-    say!(language, "{title} · step {number} of {all}{score}", "{title} · passo {number} de {all}{score}")
+    let answers = progress.at(progress.step()).ask.as_ref().map_or(0, |question| question.answers.len());
+    heading
+        + &match answered {
+            _ if progress.waits() => {
+                say!(language, " · the keys 1 to {answers} answer", " · as teclas 1 a {answers} respondem")
+            }
+            0 => String::new(),
+            _ => {
+                say!(language, " · right answers: {right} of {answered}", " · respostas certas: {right} de {answered}")
+            }
+        }
 }
 
 /// Returns the result of the lesson's questions, if it has any.

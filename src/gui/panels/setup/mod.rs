@@ -49,6 +49,7 @@ impl SetupPanel {
         if session.is_recorded() {
             return recorded(ui, session, look);
         }
+        let mut is_demonstration = false;
         let mut draft = self.draft.take().unwrap_or_else(|| session.settings().clone());
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_width(ui.available_width() - GRID);
@@ -61,19 +62,17 @@ impl SetupPanel {
             heading(ui, word!(language, "Restarts the run", "Reinicia a execução"), look);
             restarting_settings(ui, &mut draft, look, language);
             ui.add_space(GRID);
-            if button(
-                ui,
-                None,
-                word!(language, "Back to the demonstration", "Voltar à demonstração"),
-                true,
-                Emphasis::Quiet,
-            )
-            .on_hover_text(word!(language, "Restore the first settings", "Restaurar os primeiros ajustes"))
-            .clicked()
-            {
-                draft = Settings::default();
-            }
+            let name = word!(language, "Back to the demonstration", "Voltar à demonstração");
+            let hint = word!(
+                language,
+                "Restore the first settings, scene and camera",
+                "Restaurar os primeiros ajustes, a cena e a câmera"
+            );
+            is_demonstration = button(ui, None, name, true, Emphasis::Quiet).on_hover_text(hint).clicked();
         });
+        if is_demonstration {
+            return session.show_demonstration();
+        }
         // A change that needs a restart waits for the end of its gesture.
         let is_busy = ui.input(|input| input.pointer.any_down()) || ui.ctx().egui_wants_keyboard_input();
         if is_busy && draft.needs_restart(session.settings()) {
