@@ -68,6 +68,7 @@ pub use playback::details::{Details, Highlight};
 pub use playback::run_view::RunView;
 pub use playback::snapshots::{Snapshot, SnapshotCache};
 pub use print::PrintedDrawing;
+pub use ring::corners::ring_corners;
 pub use ring::layout::RingLayout;
 pub use ring::{RingOverlay, RingSpot, message_at, ring, ring_at};
 pub use state::atom_state::AtomState;
