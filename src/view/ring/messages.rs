@@ -26,11 +26,6 @@ pub(crate) fn message_at<'a>(
     parcels::parcel_at(layout, state, now, point).or_else(|| offers::offer_at(layout, state, now, point))
 }
 
-/// Returns the opacity of a message and its trail, 0 to 1.
-pub(crate) fn visibility(state: &RunState, flight: &Flight, now: Time) -> f32 {
-    flight.opacity(now) * state.opacity(now)
-}
-
 /// Draws results on the spokes.
 fn results(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>) {
     let dot = (layout.rail_radius * 0.011).clamp(1.5, 3.0);
@@ -46,10 +41,3 @@ fn results(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mar
         }
     }
 }
-
-/// Messages of a kind that are drawn with details. People can follow four to six things at a time.
-pub(crate) const MAX_DETAILED: usize = 4;
-/// Opacity of the other messages.
-pub(crate) const HINT_ALPHA: f32 = 0.3;
-/// Width of the border of a highlighted message.
-pub(crate) const HIGHLIGHT_BORDER_PX: f32 = 3.0;

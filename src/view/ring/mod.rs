@@ -8,6 +8,7 @@ mod angles;
 mod centre;
 mod condition_badge;
 pub(crate) mod corners;
+mod emphasis;
 mod farm_messages;
 mod label_text;
 pub(crate) mod labels;

@@ -3,9 +3,9 @@
 use std::f32::consts::TAU;
 
 use super::angles::arc;
+use super::emphasis::{HIGHLIGHT_BORDER_PX, MAX_DETAILED, visibility};
 use super::layers::RingLayer;
 use super::layout::RingLayout;
-use super::messages::{HIGHLIGHT_BORDER_PX, MAX_DETAILED, visibility};
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};

@@ -4,9 +4,9 @@
 //! free area inside the nodes. Where two would meet, the smaller one gives way: it fades to a dot.
 
 use super::angles::{curve, ease};
+use super::emphasis::{HIGHLIGHT_BORDER_PX, HINT_ALPHA, MAX_DETAILED, visibility};
 use super::layers::RingLayer;
 use super::layout::RingLayout;
-use super::messages::{HIGHLIGHT_BORDER_PX, HINT_ALPHA, MAX_DETAILED, visibility};
 use crate::balance::{NodeId, Party};
 use crate::time::Time;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
