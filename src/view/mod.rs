@@ -58,6 +58,7 @@ pub use narration::happening::Happening;
 pub use narration::narrator::Narrator;
 pub use narration::record_sentences::{record_words, share_words};
 pub use narration::status::incomplete::unfinished_words;
+pub use picture::bands_cost::cheapest_and_costliest;
 pub use picture::canvas::Canvas;
 pub use picture::false_colour::{RAMP_ERRORS, false_colours, ramp, ramp_position};
 pub use picture::outlines::outlines;
