@@ -89,3 +89,51 @@ fn settings_leave_space_for_picture_and_ring() {
         }
     }
 }
+
+#[test]
+fn ring_of_32_machines_has_half_the_window() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = directory.path().join("run.anel");
+    let speeds = vec!["1"; 32].join(",");
+    let written = std::process::Command::new(env!("CARGO_BIN_EXE_anel"))
+        .args(["render", "csg-primer", "--size", "64x48", "--driver", "sim", "--speeds", &speeds, "--out"])
+        .arg(directory.path().join("picture.png"))
+        .arg("--log")
+        .arg(&path)
+        .output()
+        .expect("the program runs");
+    assert!(written.status.success(), "{written:?}");
+    let mut window = open_with(SIZE, path.to_str().expect("a plain path"));
+    window.run_steps(3);
+    let ring = rect(&window, "The ring");
+    assert!(ring.height() >= SIZE[1] / 2.0, "{ring:?}");
+    for node in 1..=32 {
+        let row = rect(&window, &format!("Machine {node}"));
+        assert!(whole(SIZE).contains_rect(row) && row.top() > ring.bottom(), "machine {node}: {row:?}");
+        for part in ["Exact speed of machine", "Pause machine"] {
+            let part = rect(&window, &format!("{part} {node}"));
+            assert!(row.expand(4.0).contains_rect(part), "{part:?} {row:?}");
+        }
+    }
+}
+
+#[test]
+fn split_is_dragged_and_remembered() {
+    const SPLIT: &str = "Height of picture and ring";
+    let mut window = open(SIZE);
+    let usual = rect(&window, "The ring").height();
+    let edge = rect(&window, SPLIT).center();
+    window.drag_at(edge);
+    window.step();
+    window.hover_at(edge - egui::vec2(0.0, 90.0));
+    window.run_steps(2);
+    window.drop_at(edge - egui::vec2(0.0, 90.0));
+    window.run_steps(3);
+    let dragged = rect(&window, "The ring").height();
+    assert!((usual - dragged - 90.0).abs() < 4.0, "{usual} {dragged}");
+    let mut storage = Storage::default();
+    eframe::App::save(window.state_mut(), &mut storage);
+    let mut window = launch_with(SIZE, &storage, anel::gui::Launch::default());
+    window.run_steps(3);
+    assert!((rect(&window, "The ring").height() - dragged).abs() < 1.0);
+}

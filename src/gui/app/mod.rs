@@ -39,7 +39,7 @@ use crate::language::{Language, say};
 use crate::time::Time;
 use crate::view::{Details, Highlight, Subject};
 pub use launch::Launch;
-use main_area_layout::split_main_area;
+use main_area_layout::{Split, split_main_area};
 pub use open_stack::Closable;
 use open_stack::OpenStack;
 use quitting::Quitting;
@@ -59,6 +59,7 @@ pub struct App {
     timeline: TimelinePanel,
     /// Whether the timeline replaces the table of machines.
     shows_timeline: bool,
+    split: Split,
     selection: Selection,
     /// Details of the hovered subject.
     hovered: Option<Details>,
@@ -87,6 +88,8 @@ struct StoredState {
     is_setup_open: bool,
     #[serde(rename = "timeline")]
     shows_timeline: bool,
+    /// Height of the table or the timeline, as a share of the window's.
+    split: Option<f32>,
     language: Option<Language>,
     projector: bool,
 }
@@ -128,6 +131,7 @@ impl App {
             help: false,
             timeline: TimelinePanel::default(),
             shows_timeline: stored.shows_timeline,
+            split: Split { share: stored.split.filter(|share| (0.0..1.0).contains(share)) },
             selection: Selection::default(),
             hovered: None,
             selected: None,
@@ -219,12 +223,12 @@ impl App {
             panel.show(ui, |ui| self.setup.show(ui, &mut self.session));
         }
         self.update_highlight();
-        // The audience of a projector only looks; its presenter uses keys.
-        if !self.projector || self.shows_timeline && !self.learn.is_on() {
-            self.machines(ui);
-        }
         let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID, language);
         let height = lesson.unwrap_or_else(|| narration::height(ui));
+        // The audience of a projector only looks; its presenter uses keys.
+        if !self.projector || self.shows_timeline && !self.learn.is_on() {
+            self.machines(ui, ui.available_height() - height - time::HEIGHT_PT);
+        }
         let narration = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
         let narration = narration.show(ui, |ui| {
             if lesson.is_some() {
@@ -274,22 +278,35 @@ impl App {
         }
     }
 
-    /// Shows the table of machines, or the timeline.
-    fn machines(&mut self, ui: &mut Ui) {
-        let height = match self.learn.machines() {
+    /// Shows the table of machines, or the timeline. `room` is the height for it and for picture and ring.
+    fn machines(&mut self, ui: &mut Ui, room: f32) {
+        /// Margins of all panels.
+        const MARGINS_PT: f32 = 58.0;
+        /// Margins of this panel.
+        const OWN_MARGINS_PT: f32 = 14.0;
+        let (room, whole) = (room - MARGINS_PT, ui.ctx().content_rect().height());
+        let (nodes, has_lesson) = (self.session.header().speeds.len(), self.learn.is_on());
+        let table = |nodes: usize| nodes::height(ui, nodes, room - 0.5 * whole);
+        let usual = match self.learn.machines() {
             // All steps of a lesson have the same height, so that the picture keeps its place.
-            Some(nodes) => timeline::height(ui, nodes, true).max(nodes::height(ui, nodes)),
-            None if self.shows_timeline => timeline::height(ui, self.session.header().speeds.len(), false),
-            None => nodes::height(ui, self.session.header().speeds.len()),
+            Some(most) => timeline::height(ui, most, true).max(table(most)),
+            None if self.shows_timeline => timeline::height(ui, nodes, false),
+            None => table(nodes),
         };
-        let below = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
-        below.show(ui, |ui| {
+        let usual = usual + OWN_MARGINS_PT;
+        let height = if has_lesson { usual } else { self.split.height(ui, usual, room + OWN_MARGINS_PT) };
+        let below = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height);
+        let below = below.show(ui, |ui| {
             if self.shows_timeline {
                 self.timeline(ui);
             } else {
                 nodes::show(ui, &mut self.session, &mut self.selection, &self.highlight);
             }
         });
+        // A lesson has a layout of its own.
+        if !has_lesson {
+            self.split.drag(ui, below.response.rect, self.session.language());
+        }
     }
 
     fn timeline(&mut self, ui: &mut Ui) {
@@ -375,6 +392,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let language = self.session.language();
+        zoom::follow_window(ui.ctx(), self.projector);
         zoom::keys(ui.ctx());
         // While a path field is open, letters belong to it, even if it does not have the focus.
         let is_typing = ui.ctx().text_edit_focused() || self.save_bar.is_open() || self.gallery.is_open();
@@ -409,6 +427,7 @@ impl eframe::App for App {
             blend: Some(self.picture.blend),
             is_setup_open: self.setup.open,
             shows_timeline: self.shows_timeline,
+            split: self.split.share,
             language: Some(self.session.language()),
             projector: self.projector,
         };

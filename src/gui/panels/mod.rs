@@ -5,6 +5,7 @@ pub mod narration;
 pub mod nodes;
 pub mod notice;
 pub mod picture;
+mod picture_captions;
 pub mod ring;
 pub mod save_bar;
 pub mod setup;

@@ -8,6 +8,7 @@ use egui::{
     TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
+use super::picture_captions;
 use crate::gui::input::selection::Selection;
 use crate::gui::session::{CameraPreview, Session};
 use crate::gui::widgets;
@@ -94,6 +95,9 @@ impl PicturePanel {
         if let Some((_, texture)) = &self.preview {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             painter.image(texture.id(), frame, whole, Color32::WHITE);
+        }
+        if self.preview.is_none() && self.view.shows_all() && !self.moves_camera {
+            picture_captions::paint(&painter, picture, scale, session);
         }
         if self.moves_camera || session.is_camera_moved() {
             self.camera_strip(ui, frame, session, look);

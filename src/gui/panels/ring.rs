@@ -1,6 +1,6 @@
 //! The ring of machines, with its tooltips and menus.
 
-use egui::{Align2, Painter, Rect, Sense, Ui};
+use egui::{Align2, Sense, Ui};
 
 use crate::balance::NodeId;
 use crate::gui::input::machine_menu;
@@ -12,8 +12,8 @@ use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, Look};
 use crate::language::{say, word};
 use crate::view::{
-    Highlight, Point, RingLayout, RingOverlay, RingSpot, Subject, activity_word, drawing_notes, flight_words,
-    message_at, node_name, node_words, parent_words, ring, ring_at, time_words,
+    Highlight, Point, RingLayout, RingOverlay, RingSpot, Subject, activity_word, flight_words, message_at, node_name,
+    node_words, parent_words, ring, ring_at, ring_corners, time_words,
 };
 
 /// Shows the ring as large as possible. A click selects a machine or a message, the right button opens its menu, and a
@@ -79,7 +79,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
         ui.data_mut(|data| data.insert_temp(response.id, menu));
     }
     if state.finished().is_none() {
-        small_print_corner(&painter, rect, drawing_notes(state, language), look);
+        paint(&painter, rect.min, &ring_corners(&layout, state, rect.size().into(), language), &inks);
     }
     // Presentation mode has no top bar with the time.
     if Look::is_strong(painter.ctx()) {
@@ -102,23 +102,4 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
 enum RingMenu {
     Node(NodeId),
     Message(MessageInMenu),
-}
-
-/// Paints the notes on the drawing in its lower right corner, as many lines as fit.
-fn small_print_corner(painter: &Painter, rect: Rect, lines: Vec<String>, look: Look) {
-    let galley = |line| painter.layout_no_wrap(line, theme::regular(theme::SMALL), look.quiet);
-    let galleys: Vec<_> = lines.into_iter().map(galley).collect();
-    // In a narrow corner the second line would overlap the label of the lowest machine.
-    let room = rect.width() / 2.0 - 64.0;
-    // In a low one the third line would overlap the label above it, and in a very low one every line.
-    let max_lines = match rect.height() {
-        height if height < 200.0 => 0,
-        height if height < 360.0 => 2,
-        _ => usize::MAX,
-    };
-    let mut corner = rect.right_bottom();
-    for galley in galleys.into_iter().filter(|galley| galley.size().x < room).rev().take(max_lines) {
-        corner.y -= galley.size().y;
-        painter.galley(corner - egui::vec2(galley.size().x, 0.0), galley, look.quiet);
-    }
 }

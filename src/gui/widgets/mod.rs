@@ -149,7 +149,7 @@ pub fn slider(
     ui.scope(|ui| {
         let look = Look::of(ui.ctx());
         ui.spacing_mut().slider_width = width;
-        ui.spacing_mut().interact_size.y = 2.5 * GRID;
+        ui.spacing_mut().interact_size.y = ui.available_height().min(2.5 * GRID);
         let visuals = ui.visuals_mut();
         visuals.selection.bg_fill = colour;
         for state in [&mut visuals.widgets.inactive, &mut visuals.widgets.hovered, &mut visuals.widgets.active] {
@@ -167,7 +167,7 @@ pub fn slider(
         let share = ((*value - min) / (max - min)).clamp(0.0, 1.0) as f32;
         let x = left + (response.rect.width() - 2.0 * radius) * share;
         let handle = pos2(x, response.rect.center().y);
-        let handle_radius = if response.hovered() || response.dragged() { 9.0 } else { 8.0 };
+        let handle_radius = if response.hovered() || response.dragged() { radius + 1.0 } else { radius };
         let line = if ui.is_enabled() { look.text } else { look.quiet };
         ui.painter().circle(handle, handle_radius, colour, Stroke::new(2.0, line));
         if response.has_focus() {

@@ -69,7 +69,7 @@ pub(crate) fn result(layout: &RingLayout, summary: &Summary, marks: &mut Vec<Mar
 
 /// Returns the text size of the numbers in the centre.
 fn large_text_size(layout: &RingLayout) -> f32 {
-    (layout.rail_radius * 0.15).clamp(10.0, 48.0)
+    (layout.rail_radius * 0.14).clamp(10.0, 48.0)
 }
 
 /// Whether the centre has room for captions of its numbers.

@@ -1,6 +1,6 @@
 //! Texts of the labels beside the nodes.
 
-use super::labels::{LabelForm, MAX_LABELLED_NODES, SECOND_LINE_LETTERS};
+use super::labels::{LabelForm, MAX_LABELLED_NODES, second_line_letters};
 use super::layout::RingLayout;
 use crate::balance::NodeId;
 use crate::language::{Language, say};
@@ -57,7 +57,7 @@ fn lines(state: &RunState, of: &NodeState, activity: Activity, now: Time, langua
         Activity::Tracing => {
             let rate = rate_words(of.rate(now), language);
             let both = format!("{} · {rate}", fraction(of.speed));
-            [left, if of.speed < 0.995 && both.chars().count() <= SECOND_LINE_LETTERS { both } else { rate }]
+            [left, if of.speed < 0.995 && both.chars().count() <= second_line_letters(language) { both } else { rate }]
         }
         _ => [left, activity_word(activity, language).into()],
     }
@@ -100,7 +100,7 @@ mod tests {
             (of.speed, of.left, of.done) = (speed, i64::from(left), done);
             for activity in [Activity::Tracing, Activity::Receiving, Activity::Retired, Activity::Done, Activity::NoBand] {
                 let [first, second] = lines(&state, &of, activity, Time::from_secs(2.0), language).map(|line| line.chars().count());
-                prop_assert!(first <= first_line_letters(language) && second <= SECOND_LINE_LETTERS, "{:?}", lines(&state, &of, activity, Time::ZERO, language));
+                prop_assert!(first <= first_line_letters(language) && second <= second_line_letters(language), "{:?}", lines(&state, &of, activity, Time::ZERO, language));
                 prop_assert!(number(&state, &of, activity).chars().count() <= NUMBER_LETTERS);
             }
         }

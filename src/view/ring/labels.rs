@@ -38,8 +38,10 @@ const EDGE_GAP_PX: f32 = 2.0;
 pub(crate) fn first_line_letters(language: Language) -> usize {
     word!(language, 10, 12)
 }
-/// Maximum letters of a second line, as in `10 % · 62/s`.
-pub(crate) const SECOND_LINE_LETTERS: usize = 12;
+/// Maximum letters of a second line, as in `10 % · 62/s` or `oferece ajuda`.
+pub(crate) fn second_line_letters(language: Language) -> usize {
+    word!(language, 12, 13)
+}
 /// Maximum letters of a label that is only a number.
 pub(crate) const NUMBER_LETTERS: usize = 5;
 
@@ -70,7 +72,9 @@ impl Labels {
         };
         let text_scale = (room / USUAL_SIZE_PX).clamp(1.0, 1.4);
         let forms = [(LabelForm::TwoLines, text_scale), (LabelForm::OneLine, 1.0), (LabelForm::Number, 1.0)];
-        let fitting = forms.map(|(form, text_scale)| Self { form, text_scale }).into_iter().find(fits);
+        // In a large ring one label is no reason to make all nodes smaller.
+        let forms = if nodes <= MAX_LABELLED_NODES { &forms[..] } else { &forms[1..] };
+        let fitting = forms.iter().map(|&(form, text_scale)| Self { form, text_scale }).find(fits);
         let labels = fitting.unwrap_or(Self { form: LabelForm::Nothing, text_scale: 1.0 });
         (labels, rail(labels))
     }
@@ -90,7 +94,7 @@ impl Labels {
         let (size, second) = (self.size(), TextSize::Small(self.text_scale));
         match self.form {
             LabelForm::TwoLines => [
-                size.width(first_line_letters(language)).max(second.width(SECOND_LINE_LETTERS)),
+                size.width(first_line_letters(language)).max(second.width(second_line_letters(language))),
                 size.line() + second.line(),
             ],
             LabelForm::OneLine => [size.width(first_line_letters(language)), size.line()],
@@ -129,6 +133,14 @@ impl Labels {
         ([away * cos, away * sin], if cos > 0.0 { Anchor::Left } else { Anchor::Right })
     }
 
+    /// Returns left, top, right and bottom of a label of the maximum length, relative to the centre.
+    pub(crate) fn bounds(&self, angle: f32, rail: f32, language: Language) -> [f32; 4] {
+        let ([x, y], anchor) = self.place(angle, rail, language);
+        let [width, height] = self.extent(language);
+        let left = anchor.left(x, width);
+        [left, y - height / 2.0, left + width, y + height / 2.0]
+    }
+
     /// Whether no two labels touch, even if all have their maximum length.
     fn are_apart(&self, nodes: usize, rail: f32, language: Language) -> bool {
         let [width, height] = self.extent(language);
@@ -155,7 +167,8 @@ mod tests {
             for size in [[240.0, 240.0], [240.0, 900.0], [1000.0, 240.0], [330.0, 300.0]] {
                 assert_ne!(Labels::fit(nodes, size, language).0.form, LabelForm::Nothing, "{nodes} nodes at {size:?}");
             }
-            assert_eq!(Labels::fit(nodes, [640.0, 490.0], language).0.form, LabelForm::TwoLines, "{nodes} nodes");
+            let form = if nodes <= 16 { LabelForm::TwoLines } else { LabelForm::OneLine };
+            assert_eq!(Labels::fit(nodes, [640.0, 490.0], language).0.form, form, "{nodes} nodes");
             if nodes <= 12 {
                 assert_eq!(Labels::fit(nodes, [480.0, 480.0], language).0.form, LabelForm::TwoLines, "{nodes} nodes");
             }

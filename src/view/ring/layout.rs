@@ -3,10 +3,10 @@
 use std::f32::consts::{PI, TAU};
 
 use super::angles::direction;
-use super::labels::Labels;
+use super::labels::{LabelForm, Labels};
 use crate::balance::{NodeId, Party};
 use crate::language::Language;
-use crate::view::draw::display_list::Point;
+use crate::view::draw::display_list::{Point, TextSize};
 
 /// Positions and radii of the ring's parts, for a number of nodes and a size. Computed once a frame.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,7 @@ impl RingLayout {
         let node_radius = (rail_radius * 0.155).min(0.66 * rail_radius * half_chord / (1.0 + half_chord));
         let seat_radius = rail_radius - node_radius * 1.3 - 8.0;
         let centre = [width / 2.0, height / 2.0];
-        let parent_radius = rail_radius * 0.24;
+        let parent_radius = rail_radius * 0.22;
         Self { nodes, centre, rail_radius, seat_radius, node_radius, parent_radius, labels }
     }
 
@@ -73,6 +73,21 @@ impl RingLayout {
         };
         let start = if from == self.centre { self.parent_radius } else { self.node_reach() };
         (towards(from, start), towards(to, self.node_reach()))
+    }
+
+    /// Whether nothing of the ring is ever drawn between these left, top, right and bottom sides.
+    pub(crate) fn is_free(&self, [left, top, right, bottom]: [f32; 4], language: Language) -> bool {
+        const GAP_PX: f32 = 4.0;
+        let [x, y] = self.centre;
+        let away = (left - x).max(x - right).max(0.0).hypot((top - y).max(y - bottom).max(0.0));
+        let misses = |node: usize| {
+            let angle = direction(node, self.nodes);
+            let [from, above, to, below] = self.labels.bounds(angle, self.rail_radius, language);
+            let [over, under] = [left - x - to, x + from - right].map(|gap| gap >= GAP_PX);
+            over || under || top - y - below >= GAP_PX || y + above - bottom >= GAP_PX
+        };
+        let has_labels = self.labels.form != LabelForm::Nothing;
+        away >= self.rail_radius + self.labels.gap() && (!has_labels || (0..self.nodes).all(misses))
     }
 
     /// Returns the radius of the free area inside the nodes.
@@ -111,7 +126,10 @@ impl RingLayout {
         } else {
             let (distance, half) = (middle[0].hypot(middle[1]), chord[0].hypot(chord[1]) / 2.0);
             let through = half / (half + distance).max(1.0);
-            (0.6, 0.45 * through * through)
+            // The middle of a short way lies as deep inside the nodes as a box needs.
+            let depth = self.interior_radius() - 0.5 * self.node_radius - 2.0 * TextSize::SMALL;
+            let inward = ((2.0 * depth - distance) / distance.max(1.0)).clamp(0.3, 0.6);
+            (inward, 0.45 * through * through)
         };
         // Square to the chord, away from the centre.
         let aside = if chord[0] * middle[1] < chord[1] * middle[0] { -aside } else { aside };

@@ -33,8 +33,8 @@ pub(crate) fn ring_legend(
             true,
             word!(
                 language,
-                "Disc: a machine; the faster, the larger. Arc round it: how much of its atoms it has traced.",
-                "Disco: uma máquina; quanto mais rápida, maior. Arco em volta: quanto de seus átomos já calculou."
+                "Disc: a machine; the faster, the larger. Arc round it: its atoms left; full: an equal share of the picture.",
+                "Disco: uma máquina; quanto mais rápida, maior. Arco em volta: átomos que restam; cheio: uma parte igual da imagem."
             ),
         ),
         (
@@ -50,11 +50,13 @@ pub(crate) fn ring_legend(
             word!(language, "Dashed seat: a spare machine.", "Lugar tracejado: máquina de reserva."),
         ),
         (
-            any(&|activity| shows_pipe(layout, activity)),
+            (0..)
+                .zip(&machines)
+                .any(|(node, (activity, _))| shows_pipe(layout, &state.node_as_drawn(node, now), *activity)),
             word!(
                 language,
-                "Two squares: the atom that it traces, and the next one.",
-                "Dois quadrados: o átomo que calcula e o próximo."
+                "Squares: the last atoms of a machine, in its pipe; no other can take them.",
+                "Quadrados: os últimos átomos de uma máquina, em seu pipe; nenhuma outra pode levá-los."
             ),
         ),
         (has_badge(Badge::Paused), word!(language, "Two bars: paused.", "Duas barras: em pausa.")),
@@ -86,7 +88,14 @@ pub(crate) fn ring_legend(
                 "Disco numerado no círculo externo: essa máquina oferece ajuda."
             ),
         ),
-        (parcels, word!(language, "×n: a parcel of n atoms.", "×n: um pacote de n átomos.")),
+        (
+            parcels,
+            word!(
+                language,
+                "×n: a parcel of n atoms, in the colour of its giver, with a rim in that of its receiver.",
+                "×n: um pacote de n átomos, na cor de quem dá, com borda na cor de quem recebe."
+            ),
+        ),
         (
             parcels && has_copies,
             word!(language, "Two boxes: atoms given out again.", "Duas caixas: átomos redistribuídos."),

@@ -1,9 +1,9 @@
 //! Small marks of the adaptive ring: sparks for messages that wake a node, and crosses where messages were lost.
 
 use super::angles::{curve, ease};
+use super::emphasis::visibility;
 use super::layers::{RingLayer, RingMarks};
 use super::layout::RingLayout;
-use super::messages::visibility;
 use crate::balance::Party;
 use crate::time::Time;
 use crate::view::draw::display_list::{Hue, Mark, Point};

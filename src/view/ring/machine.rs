@@ -13,13 +13,13 @@ use crate::view::text::format::node_name;
 /// Least radius of a node whose number can be read.
 const MIN_NUMBER_RADIUS_PX: f32 = 4.0;
 /// Least radius of a node whose pipe can be seen.
-const MIN_PIPE_RADIUS_PX: f32 = 20.0;
+pub(crate) const MIN_PIPE_RADIUS_PX: f32 = 20.0;
 
-/// Draws a machine; the arc round it shows the share of its atoms that is traced.
+/// Draws a machine; the arc round it shows its atoms left as a share of `full`.
 pub(crate) fn draw(
     layout: &RingLayout,
     (node, state): (NodeId, &NodeState),
-    activity: Activity,
+    (activity, full): (Activity, u32),
     is_selected: bool,
     marks: &mut Vec<Mark>,
 ) {
@@ -27,7 +27,7 @@ pub(crate) fn draw(
     if activity == Activity::Spare {
         return empty_seat(layout, node, is_selected, marks);
     }
-    progress(layout, centre, (node, state), activity, marks);
+    atoms_left(layout, centre, (node, state), full, marks);
     let radius = layout.node_radius * (0.5 + 0.5 * state.speed.clamp(0.0, 1.0).sqrt() as f32);
     let colour = Hue::Node(node);
     let (fill, hue) = match activity {
@@ -55,7 +55,7 @@ pub(crate) fn draw(
         }
         _ => {}
     }
-    let has_pipe = shows_pipe(layout, activity);
+    let has_pipe = shows_pipe(layout, state, activity);
     let raised = if has_pipe { 0.2 * radius } else { 0.0 };
     number(layout, node, [centre[0], centre[1] - raised], radius, hue, marks);
     if has_pipe {
@@ -69,10 +69,10 @@ pub(crate) fn draw(
     }
 }
 
-/// Whether the pipe of a machine is drawn.
-pub(crate) fn shows_pipe(layout: &RingLayout, activity: Activity) -> bool {
+/// Whether the pipe of a machine is drawn: while it holds all that is left, which nobody else can take.
+pub(crate) fn shows_pipe(layout: &RingLayout, state: &NodeState, activity: Activity) -> bool {
     let is_there = !activity.is_out() && !matches!(activity, Activity::Done | Activity::Spare);
-    layout.node_radius >= MIN_PIPE_RADIUS_PX && is_there
+    layout.node_radius >= MIN_PIPE_RADIUS_PX && is_there && (1..=2).contains(&state.left())
 }
 
 /// Draws the seat of a spare machine: its number within a dashed outline.
@@ -98,23 +98,20 @@ fn selection(layout: &RingLayout, centre: Point, marks: &mut Vec<Mark>) {
     marks.push(Mark::Line { points, width: 2.5, ink: Hue::Text.full() });
 }
 
-/// Draws the progress arc round a machine: traced atoms as a share of traced and left ones.
-fn progress(
+/// Draws the arc of the atoms left. Atoms that are given away leave the giver's arc and lengthen the receiver's.
+fn atoms_left(
     layout: &RingLayout,
     centre: Point,
     (node, state): (NodeId, &NodeState),
-    activity: Activity,
+    full: u32,
     marks: &mut Vec<Mark>,
 ) {
     let (track, width, colour) = (layout.node_radius * RingLayout::TRACK_RADIUS, layout.track_width(), Hue::Node(node));
-    let work = state.done + state.left();
-    let done = if work == 0 { 0.0 } else { state.done as f32 / work as f32 };
+    let left = (state.left() as f32 / full.max(1) as f32).min(1.0);
     marks.push(Mark::Disc { centre, radius: layout.node_reach(), ink: Hue::Ground.full() });
     marks.push(Mark::Line { points: arc(centre, track, 0.0, TAU), width, ink: colour.faint(0.2) });
-    if done > 0.0 {
-        let strength = if activity.is_out() { 0.4 } else { 1.0 };
-        let points = arc(centre, track, -PI / 2.0, TAU * done);
-        marks.push(Mark::Line { points, width, ink: colour.faint(strength) });
+    if left > 0.0 {
+        marks.push(Mark::Line { points: arc(centre, track, -PI / 2.0, TAU * left), width, ink: colour.full() });
     }
 }
 

@@ -7,6 +7,8 @@
 mod angles;
 mod centre;
 mod condition_badge;
+pub(crate) mod corners;
+mod emphasis;
 mod farm_messages;
 mod label_text;
 pub(crate) mod labels;
@@ -16,6 +18,8 @@ pub(crate) mod legend;
 mod lost_messages;
 mod machine;
 mod messages;
+mod offers;
+mod parcels;
 
 use std::f32::consts::TAU;
 
@@ -72,7 +76,8 @@ fn draw(layout: &RingLayout, state: &RunState, overlay: &RingOverlay, now: Time,
     for node in 0..state.nodes().len() as NodeId {
         let of = &*state.node_as_drawn(node, now);
         let (activity, is_selected) = (state.activity(node, now), overlay.selected == Some(node));
-        machine::draw(layout, (node, of), activity, is_selected || overlay.highlighted.contains(&node), machines);
+        let stands_out = is_selected || overlay.highlighted.contains(&node);
+        machine::draw(layout, (node, of), (activity, state.equal_share()), stands_out, machines);
         if is_labelled(layout, is_selected) {
             label_text::draw(layout, state, (node, of), activity, now, machines, language);
         }

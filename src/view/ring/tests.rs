@@ -134,6 +134,112 @@ proptest! {
     }
 }
 
+/// Calls `see` with the marks of the ring at moments of a run by `strategy`, for several sizes.
+fn for_each_moment(strategy: Strategy, speeds: &[f64], mut see: impl FnMut(&RingLayout, &[Mark])) {
+    let mut header = sample_runs::header(speeds, 40 * speeds.len() as u32);
+    header.rules.strategy = strategy;
+    let (mut state, records) = (RunState::new(&header), sample_runs::records(&header));
+    for (i, record) in records.iter().enumerate() {
+        state.apply(record);
+        if i % 23 == 0 {
+            for size in [[411.0, 411.0], [737.0, 411.0], [1000.0, 640.0]] {
+                let layout = layout(&state, size);
+                see(&layout, &drawn(&state, &RingOverlay::default(), record.at, size));
+            }
+        }
+    }
+}
+
+/// The boxes with a count, each with its extent.
+fn count_boxes(marks: &[Mark]) -> Vec<[f32; 4]> {
+    let is_count = |mark: &&[Mark]| matches!(&mark[1], Mark::Label { text, .. } if text.starts_with('×'));
+    let boxes = marks.windows(2).filter(is_count).filter_map(|pair| match pair[0] {
+        Mark::Box { centre: [x, y], half: [w, h], ink, .. } if ink.alpha > 0.02 => Some([x - w, y - h, x + w, y + h]),
+        _ => None,
+    });
+    boxes.collect()
+}
+
+/// The discs of offers, each with centre and radius.
+fn offer_discs(layout: &RingLayout, marks: &[Mark]) -> Vec<(Point, f32)> {
+    let disc = |mark: &Mark| match *mark {
+        Mark::Disc { centre: [x, y], radius, ink: Ink { hue: Hue::Node(_), alpha } } if alpha > 0.02 => {
+            let away = (x - layout.centre[0]).hypot(y - layout.centre[1]);
+            (away > layout.rail_radius - 1.0).then_some(([x, y], radius))
+        }
+        _ => None,
+    };
+    marks.iter().filter_map(disc).collect()
+}
+
+#[test]
+fn counts_and_offers_meet_neither_discs_nor_each_other() {
+    let (mut counts, mut offers) = (0, 0);
+    for strategy in [Strategy::Ring, Strategy::Adaptive] {
+        for nodes in [2, 3, 8, 16, 32] {
+            let mut speeds = vec![1.0; nodes];
+            speeds[nodes / 2] = 0.1;
+            for_each_moment(strategy.clone(), &speeds, |layout, marks| {
+                let boxes = count_boxes(marks);
+                let reach = layout.node_reach();
+                let machines = (0..nodes as NodeId).map(|node| (layout.seat(node), reach));
+                let discs: Vec<_> = machines.chain([(layout.centre, layout.parent_radius)]).collect();
+                let away = |[x, y]: Point, [left, top, right, bottom]: [f32; 4]| {
+                    (left - x).max(x - right).max(0.0).hypot((top - y).max(y - bottom).max(0.0))
+                };
+                for (i, &one) in boxes.iter().enumerate() {
+                    for &(centre, radius) in &discs {
+                        assert!(away(centre, one) > radius, "{one:?} of {nodes} covers the disc at {centre:?}");
+                    }
+                    for other in &boxes[..i] {
+                        let apart = [one[0] - other[2], other[0] - one[2], one[1] - other[3], other[1] - one[3]];
+                        assert!(apart.into_iter().fold(f32::MIN, f32::max) > 0.0, "{one:?} meets {other:?}");
+                    }
+                }
+                let tokens = offer_discs(layout, marks);
+                for (i, (one, radius)) in tokens.iter().enumerate() {
+                    for (centre, reach) in discs.iter().chain(&tokens[..i]) {
+                        let apart = (one[0] - centre[0]).hypot(one[1] - centre[1]) - radius - reach;
+                        assert!(apart > -0.1, "an offer among {nodes} meets the disc at {centre:?} by {apart}");
+                    }
+                }
+                (counts, offers) = (counts + boxes.len(), offers + tokens.len());
+            });
+        }
+    }
+    assert!(counts > 100 && offers > 100, "{counts} counts, {offers} offers");
+}
+
+#[test]
+fn parcels_of_a_pair_are_drawn_as_one_with_the_sum_of_their_atoms() {
+    let mut merged = 0;
+    for (strategy, nodes) in [(Strategy::Ring, 3), (Strategy::Adaptive, 8), (Strategy::Adaptive, 16)] {
+        let mut header = sample_runs::header(&vec![1.0; nodes], 200 * nodes as u32);
+        (header.rules.strategy, header.speeds[nodes / 2]) = (strategy, 0.05);
+        let mut state = RunState::new(&header);
+        for record in &sample_runs::records(&header) {
+            state.apply(record);
+            let now = record.at;
+            let is_shown = |flight: &&Flight| {
+                matches!(flight.cargo, Cargo::Transfer(_) | Cargo::Again(_)) && flight.shown().contains(&now)
+            };
+            let shown: Vec<_> = state.flights().iter().filter(is_shown).collect();
+            let leader = |of: &Flight| shown.iter().find(|flight| of.carrier.is_some_and(|by| by.id == flight.id));
+            for (other, leader) in shown.iter().filter_map(|other| Some((other, leader(other)?))) {
+                assert_eq!((other.from, other.to, other.shown().end), (leader.from, leader.to, leader.shown().end));
+                assert_eq!(other.progress(now), leader.progress(now));
+                assert!(other.arrives <= other.shown().end, "it is not drawn at its end before it arrives");
+                merged += 1;
+            }
+            if state.opacity(now) > 0.0 {
+                let sum: u32 = shown.iter().map(|flight| flight.cargo.atoms()).sum();
+                assert_eq!(parcels::atoms_drawn(&layout(&state, SIZE), &state, now), sum, "at {} s", now.secs());
+            }
+        }
+    }
+    assert!(merged > 20, "{merged}");
+}
+
 #[test]
 fn parcel_is_found_where_it_is_drawn() {
     let (state, now) = state_after(&[1.0, 1.0, 0.1], 0.7);
@@ -153,7 +259,9 @@ fn offer_is_found_where_it_is_drawn() {
     let found = |part: u32| {
         let (state, now) = state_after(&[1.0, 1.0, 0.1], f64::from(part) / 20.0);
         let offer = |mark: &Mark| {
-            let Mark::Label { at, ink: Ink { hue: Hue::OnNode(who), .. }, .. } = *mark else { return false };
+            let Mark::Label { at, text, ink: Ink { hue: Hue::Text, .. }, .. } = mark else { return false };
+            let Ok(name) = text.parse::<NodeId>() else { return false };
+            let (at, who) = (*at, name - 1);
             message_at(&layout(&state, SIZE), &state, now, at)
                 .is_some_and(|flight| flight.cargo == Cargo::Offer { who })
         };
@@ -165,8 +273,10 @@ fn offer_is_found_where_it_is_drawn() {
 #[test]
 fn pause_selection_and_pipe_are_drawn() {
     let (mut state, now) = state_after(&[1.0, 1.0, 0.1], 0.4);
-    // By then the bands and their counts are apart.
-    let now = now + Duration::from_millis(400);
+    // By then no band is on its way.
+    let now = now + Duration::from_millis(1200);
+    let full = drawn(&state, &RingOverlay::default(), now, [640.0, 490.0]);
+    state.nodes.iter_mut().for_each(|node| node.left = 2);
     // Slots are square, bars are high, parcels are wide.
     let boxes = |marks: &[Mark], shape: Ordering| {
         let has = |mark: &&Mark| matches!(mark, Mark::Box { half: [w, h], .. } if h.total_cmp(w) == shape);
@@ -183,6 +293,7 @@ fn pause_selection_and_pipe_are_drawn() {
     assert!(!texts(&going).contains(&"paused"));
     assert_eq!([boxes(&paused, Ordering::Greater), boxes(&going, Ordering::Greater)], [2, 0], "bars");
     assert_eq!([boxes(&paused, Ordering::Equal), boxes(&going, Ordering::Equal)], [6, 6], "slots");
+    assert_eq!(boxes(&full, Ordering::Equal), 0, "others can take atoms");
     let small = drawn(&state, &RingOverlay::default(), now, [240.0, 240.0]);
     assert_eq!(boxes(&small, Ordering::Equal), 0, "too small to be seen");
 }

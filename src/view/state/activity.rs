@@ -52,11 +52,11 @@ impl RunState {
 
     /// Returns a node as it is shown at `now`. Parcels are drawn slower than they travel, and atoms in a parcel that is
     /// still drawn on its way do not count as the node's yet. The parts of a farm are drawn about as fast as they
-    /// travel.
+    /// travel, and of its band a node traces the first atoms at once.
     pub(crate) fn node_as_drawn(&self, node: NodeId, now: Time) -> Cow<'_, NodeState> {
         let state = &self.nodes[usize::from(node)];
         let lands = |flight: &&Flight| {
-            let is_part = matches!(flight.cargo, Cargo::Part(_));
+            let is_part = matches!(flight.cargo, Cargo::Part(_) | Cargo::Band(_));
             let lands = flight.to == Party::Node(node) && flight.arrives <= now && flight.shown().contains(&now);
             lands && flight.lost.is_none() && !is_part
         };
@@ -90,6 +90,7 @@ impl RunState {
         // An offer may be away for an instant only: it counts as long as its drawing.
         let offers =
             self.flights.iter().any(|flight| flight.cargo == Cargo::Offer { who: node } && flight.opacity(now) > 0.4);
+        let offers_again = state.awaits_answer && state.left() == 0 && !self.is_sent_atoms(node);
         let is_over = self.finished.is_some_and(|end| end <= now);
         if state.spare {
             Activity::Spare
@@ -111,7 +112,7 @@ impl RunState {
             Activity::NoBand
         } else if state.paused && state.left() > 0 {
             Activity::Paused
-        } else if self.receives(node, now) {
+        } else if self.receives(node, now) && !offers_again {
             Activity::Receiving
         } else if state.left() > 0 {
             if state.speed > 0.0 { Activity::Tracing } else { Activity::SpeedZero }
@@ -136,6 +137,12 @@ impl RunState {
             (true, false) => Activity::Asking,
             (false, false) => Activity::InLine,
         }
+    }
+
+    /// Whether a parcel for `node` has not arrived yet: its drawing may go on after that, while the node offers again.
+    fn is_sent_atoms(&self, node: NodeId) -> bool {
+        let carries = |flight: &Flight| matches!(flight.cargo, Cargo::Transfer(_) | Cargo::Again(_));
+        self.pending.values().any(|flight| flight.to == Party::Node(node) && carries(flight))
     }
 
     /// Whether a parcel for `node` is drawn at `now`.

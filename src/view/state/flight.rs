@@ -34,6 +34,19 @@ pub struct Flight {
     pub(crate) lost: Option<f32>,
     /// Beginning and length of a delay by its link.
     pub(crate) held: Option<(Time, Duration)>,
+    /// The earlier parcel that carries its atoms in the drawing.
+    pub(crate) carrier: Option<Carrier>,
+}
+
+/// A parcel that carries the atoms of later ones between the same two parties.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Carrier {
+    /// Its message.
+    pub(crate) id: u64,
+    /// When it was sent.
+    pub(crate) sent: Time,
+    /// Time for which it is drawn on its way.
+    pub(crate) length: Duration,
 }
 
 /// Content of a message, as views need it.
@@ -88,12 +101,35 @@ impl Flight {
             Message::Join | Message::Gone(_) | Message::Placed(_) | Message::Failed(_) => Cargo::Notice,
             Message::Shutdown => Cargo::Shutdown,
         };
-        Self { id, from, to, cargo, sent, arrives, rate: 1.0, lost: None, held: None }
+        Self { id, from, to, cargo, sent, arrives, rate: 1.0, lost: None, held: None, carrier: None }
+    }
+
+    /// Returns the drawing of this parcel that may carry `later`: a parcel of the same kind between the same parties,
+    /// sent while this one is well under way, that arrives before this one does in the drawing.
+    pub(crate) fn carrier_of(&self, later: &Self) -> Option<Carrier> {
+        /// A later parcel would be seen for an instant only.
+        const LATEST_PROGRESS: f32 = 0.8;
+        let is_plain = |flight: &Self| flight.lost.is_none() && flight.held.is_none();
+        let are_alike = (self.from, self.to) == (later.from, later.to)
+            && matches!(
+                (&self.cargo, &later.cargo),
+                (Cargo::Transfer(_), Cargo::Transfer(_)) | (Cargo::Again(_), Cargo::Again(_))
+            );
+        let carries = are_alike
+            && is_plain(self)
+            && is_plain(later)
+            && self.carrier.is_none()
+            && self.progress(later.sent) <= LATEST_PROGRESS
+            && later.arrives <= self.shown().end;
+        carries.then(|| Carrier { id: self.id, sent: self.sent, length: self.drawn_length() })
     }
 
     /// Time in which the message is drawn on its way: until it arrives or is lost, or for its minimum time if that is
     /// longer.
     pub fn shown(&self) -> Range<Time> {
+        if let Some(carrier) = self.carrier {
+            return self.sent..carrier.sent + carrier.length;
+        }
         let length = self.drawn_length().mul_f64(self.lost.map_or(1.0, f64::from));
         self.sent..self.sent + length + self.held_for()
     }
@@ -151,6 +187,9 @@ impl Flight {
 
     /// Part of its way at `now`, 0 to 1.
     pub fn progress(&self, now: Time) -> f32 {
+        if let Some(Carrier { sent, length, .. }) = self.carrier {
+            return (now.since(sent).as_secs_f64() / length.as_secs_f64()).min(1.0) as f32;
+        }
         let (length, most) = (self.drawn_length().as_secs_f64(), self.lost.unwrap_or(1.0));
         if length == 0.0 { most } else { ((self.travelled(now).as_secs_f64() / length) as f32).min(most) }
     }
@@ -186,9 +225,12 @@ impl Cargo {
 
     /// Minimum time for which the message is drawn on its way. Offers have none, or an offer that is passed on would be
     /// seen in several places at once: they leave a trail instead.
-    pub const fn min_drawn(&self) -> Duration {
+    pub fn min_drawn(&self) -> Duration {
+        /// Small parcels are many, at the end of a run.
+        const FEW_ATOMS: u32 = 10;
         match self {
             Self::Band(_) => Duration::from_millis(900),
+            Self::Transfer(_) | Self::Again(_) if self.atoms() < FEW_ATOMS => Duration::from_millis(600),
             Self::Transfer(_) | Self::Again(_) => Duration::from_millis(1000),
             Self::Results(_) => Duration::from_millis(500),
             // There may be many, and the receiver waits for them.

@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use super::flight::Flight;
+use super::flight::{Cargo, Flight};
 use crate::balance::Party;
 use crate::time::Time;
 
@@ -26,6 +26,18 @@ impl Flights {
             self.swept = self.flights.len();
         }
         self.flights.push(Flight { rate: self.rate(), ..flight });
+        self.join(self.flights.len() - 1);
+    }
+
+    /// Lets the parcels from `first` on join earlier parcels of their pairs: many small ones could not be told apart.
+    fn join(&mut self, first: usize) {
+        for i in first..self.flights.len() {
+            let (earlier, later) = self.flights.split_at_mut(i);
+            if matches!(later[0].cargo, Cargo::Transfer(_) | Cargo::Again(_)) {
+                later[0].carrier = None;
+                later[0].carrier = earlier.iter().rev().find_map(|flight| flight.carrier_of(&later[0]));
+            }
+        }
     }
 
     /// Marks a message as lost ([`Flight::lose`]).
@@ -33,12 +45,14 @@ impl Flights {
         if let Some(flight) = self.flights.iter_mut().rfind(|flight| flight.id == id) {
             flight.lose(at, at_end);
         }
+        self.join(0);
     }
 
     /// Delays the messages that are on a link at `at` until `until`.
     pub fn hold(&mut self, (from, to): (Party, Party), at: Time, until: Time) {
         let is_there = |flight: &&mut Flight| (flight.from, flight.to) == (from, to) && flight.arrives > at;
         self.flights.iter_mut().filter(is_there).for_each(|flight| flight.hold(at, until));
+        self.join(0);
     }
 
     /// Playback rate: run seconds per wall second, at most 1.
@@ -51,6 +65,7 @@ impl Flights {
         let rate = rate.min(1.0);
         if self.rate.replace(rate) != Some(rate) {
             self.flights.iter_mut().for_each(|flight| flight.rate = rate);
+            self.join(0);
         }
     }
 }

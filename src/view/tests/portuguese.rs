@@ -238,10 +238,11 @@ fn pointed_words(snapshot: &Snapshot, now: Time, language: Language) -> Said {
     {
         said.extend([(Room::Same, what.to_owned()), (Room::Same, words)]);
     }
-    // The ring has as many labels in both languages.
+    // The ring has as many labels in both languages, but for the numbers of messages that give way to each other.
     let layout = RingLayout::new(state.nodes().len(), [1200.0, 1200.0], language);
     let drawn = ring(&layout, state, &RingOverlay::default(), now, language);
-    said.extend(labels_of(drawn).map(|words| (Room::Same, words)));
+    let is_word = |words: &String| !words.starts_with('×') && words.parse::<u32>().is_err();
+    said.extend(labels_of(drawn).filter(is_word).map(|words| (Room::Same, words)));
     said.extend((0..state.atoms()).step_by(97).map(|atom| (Room::Same, atom_words(state, atom, now, language))));
     said.extend(state.flights().iter().map(|flight| (Room::Some, flight_words(flight, language))));
     said.extend(drawing_notes(state, language).into_iter().map(|line| (Room::Same, line)));
@@ -350,7 +351,10 @@ fn states_fit_below_a_machine() {
         Activity::Done,
     ];
     compare(|language| all.map(|activity| (Room::Same, activity_word(activity, language).to_owned())).to_vec());
-    let short = |activity| activity_word(activity, Language::Portuguese).chars().count() <= labels::SECOND_LINE_LETTERS;
+    let short = |activity| {
+        activity_word(activity, Language::Portuguese).chars().count()
+            <= labels::second_line_letters(Language::Portuguese)
+    };
     assert!(all.iter().all(|activity| short(*activity)));
 }
 

@@ -253,7 +253,7 @@ pub fn activity_word(activity: Activity, language: Language) -> &'static str {
         Activity::Tracing => word!(language, "tracing", "calculando"),
         Activity::SpeedZero => word!(language, "at 0 %", "a 0 %"),
         Activity::Paused => word!(language, "paused", "em pausa"),
-        Activity::Offering => word!(language, "offers help", "quer ajudar"),
+        Activity::Offering => word!(language, "offers help", "oferece ajuda"),
         Activity::Asking => word!(language, "asking", "pedindo"),
         Activity::InLine => word!(language, "in line", "na fila"),
         Activity::Receiving => word!(language, "receiving", "recebendo"),

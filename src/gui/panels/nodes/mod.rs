@@ -17,13 +17,14 @@ use crate::palette::text_on;
 use crate::view::{
     Activity, Highlight, NodeRow, Subject, count, fraction, node_name, node_rows, rate_number, row_words,
 };
-use row_layout::{HEAD_HEIGHT_PT, RowGrid, RowLayout};
+use row_layout::{RowGrid, RowLayout};
 
-/// Returns the height of the panel for this number of machines: at most about a third of the window; then it scrolls.
-pub fn height(ui: &Ui, nodes: usize) -> f32 {
-    let grid = RowGrid::new(nodes, ui.available_width() - 4.0 * GRID);
-    let max = if grid.is_dense() { 0.36 } else { 0.3 } * ui.ctx().content_rect().height();
-    grid.height().min(max.max(HEAD_HEIGHT_PT + grid.row))
+/// Returns the height of the panel for this number of machines, in points: at most `room`, which leaves the ring large,
+/// or a part of the window. Then rows come closer, and at last they scroll.
+pub fn height(ui: &Ui, nodes: usize, room: f32) -> f32 {
+    let part = if RowGrid::are_many(nodes) { 0.19 } else { 0.24 };
+    let most = room.max(part * ui.ctx().content_rect().height()).max(9.0 * GRID);
+    RowGrid::new(nodes, [ui.available_width() - 4.0 * GRID, most]).usual_height().min(most)
 }
 
 /// Shows all rows, in as many columns as fit. A click on a row selects its machine.
@@ -31,22 +32,21 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
     let language = session.language();
     let look = Look::of(ui.ctx());
     let rows = node_rows(session.stage().state(), session.now());
-    let grid = RowGrid::new(rows.len(), ui.available_width());
+    let grid = RowGrid::new(rows.len(), ui.available_size().into());
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());
         for column in 0..grid.columns {
             let corner = area.min + vec2(grid.left(column), 0.0);
             head(
                 ui,
-                &RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, HEAD_HEIGHT_PT)), grid.is_dense()),
+                &RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, grid.head())), grid.density),
                 look,
                 language,
             );
         }
         for (i, row) in rows.iter().enumerate() {
-            let corner =
-                area.min + vec2(grid.left(i / grid.lines), HEAD_HEIGHT_PT + (i % grid.lines) as f32 * grid.row);
-            let layout = RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.is_dense());
+            let corner = area.min + vec2(grid.left(i / grid.lines), grid.head() + (i % grid.lines) as f32 * grid.row);
+            let layout = RowLayout::new(Rect::from_min_size(corner, vec2(grid.width, grid.row)), grid.density);
             let is_highlighted = highlight.nodes.contains(&row.node);
             let is_selected = selection.node() == Some(row.node);
             let response = background(ui, &layout, row, (is_selected, is_highlighted), look, language);
@@ -72,7 +72,7 @@ fn head(ui: &Ui, layout: &RowLayout, look: Look, language: Language) {
     };
     caption(layout.slider.left(), Align2::LEFT_CENTER, word!(language, "speed", "velocidade"));
     if let Some(bar) = layout.bar {
-        caption(bar.left(), Align2::LEFT_CENTER, word!(language, "progress", "progresso"));
+        caption(bar.left(), Align2::LEFT_CENTER, word!(language, "done + left", "feitos + restam"));
     }
     let is_tight = layout.rate.is_some_and(|rate| rate - layout.left < 7.0 * GRID);
     let rate = if is_tight { word!(language, "atoms/s", "át./s") } else { word!(language, "atoms/s", "átomos/s") };
@@ -125,11 +125,14 @@ fn figures(ui: &Ui, layout: &RowLayout, row: &NodeRow, session: &Session, look: 
     let own = session.stage().colours[usize::from(row.node)];
     let (y, colour) = (layout.row.center().y, theme::colour(own));
     let painter = ui.painter();
-    let chip = Rect::from_center_size(pos2(layout.row.left() + 1.5 * GRID, y), Vec2::splat(layout.side()));
+    let chip = Rect::from_center_size(
+        pos2(layout.row.left() + 1.5 * GRID, y),
+        vec2(layout.side().max(2.5 * GRID), layout.side()),
+    );
     painter.rect_filled(chip, 6.0, colour);
     let on_chip = theme::colour(text_on(own));
     let name = node_name(row.node).to_string();
-    let size = if layout.is_dense { theme::SMALL } else { theme::BODY };
+    let size = if layout.is_small { theme::SMALL } else { theme::BODY };
     painter.text(chip.center(), Align2::CENTER_CENTER, name, theme::strong(size), on_chip);
     let number = |x: Option<f32>, text: String, colour: Color32| {
         if let Some(x) = x {

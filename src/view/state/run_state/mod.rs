@@ -192,6 +192,12 @@ impl RunState {
         self.atoms.len() as u32
     }
 
+    /// Number of atoms in an equal share of the picture: of all machines but the spare ones.
+    pub(crate) fn equal_share(&self) -> u32 {
+        let machines = self.nodes.iter().filter(|node| !node.spare).count();
+        self.atoms().div_ceil(machines.max(1) as u32)
+    }
+
     /// Division of the picture into atoms.
     pub fn division(&self) -> Division {
         self.division
