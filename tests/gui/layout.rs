@@ -1,7 +1,8 @@
 //! Nothing is cut off in windows of any size, with and without the panels.
 
+use egui::accesskit::Role;
 use egui::{Key, Pos2, Rect};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::driving::*;
 
@@ -86,6 +87,40 @@ fn settings_leave_space_for_picture_and_ring() {
             let panel = window.get_by_label("Number of machines").rect();
             assert!(whole(size).contains_rect(rect) && rect.area() > 20_000.0, "{name} at {size:?}: {rect:?}");
             assert!(rect.left() > panel.right(), "{name} at {size:?}");
+        }
+    }
+}
+
+/// Shows a notice in each of these states of the window, and checks that it covers nothing.
+#[test]
+fn notice_has_a_place_of_its_own() {
+    let seen =
+        [Role::Button, Role::Slider, Role::SpinButton, Role::TextInput, Role::ComboBox, Role::Image, Role::Label];
+    for size in [[1024.0, 640.0], [1280.0, 800.0], [1920.0, 1080.0], [683.0, 427.0]] {
+        let mut window = open(size);
+        until(&mut window, "traced atoms", |window| done(window) > 200);
+        for opened in [None, Some(Key::Num3), Some(Key::E), Some(Key::T), Some(Key::K), Some(Key::N)] {
+            opened.into_iter().for_each(|opened| key(&mut window, opened));
+            if opened == Some(Key::N) {
+                press(&mut window, "What is an atom?");
+                until(&mut window, "a lesson", |window| window.state().lesson().is_some());
+            }
+            window.event(egui::Event::Copy);
+            window.run_steps(4);
+            let words = window.get_by_label("The picture is copied to the clipboard").rect();
+            let notice = words.union(rect(&window, "Close notice"));
+            assert!(whole(size).contains_rect(notice), "{opened:?} at {size:?}: {notice:?}");
+            for role in seen {
+                for node in window.query_all_by_role(role) {
+                    let node_of_it = node.accesskit_node();
+                    let name = node_of_it.label().or(node_of_it.value()).unwrap_or_default();
+                    let is_own = ["The picture is copied to the clipboard", "Close notice"].contains(&&*name);
+                    let both = node.rect().intersect(notice);
+                    let is_covered = !is_own && both.width() > 1.0 && both.height() > 1.0;
+                    assert!(!is_covered, "{opened:?} at {size:?}: {name:?} at {:?} meets {notice:?}", node.rect());
+                }
+            }
+            press(&mut window, "Close notice");
         }
     }
 }

@@ -12,7 +12,7 @@ mod stored_path;
 use std::time::Duration;
 
 use eframe::Storage;
-use egui::{Align, Context, Frame, Layout, Margin, Panel, Rect, Ui, UiBuilder};
+use egui::{Align, Context, Frame, Layout, Margin, Panel, Ui, UiBuilder};
 use serde::{Deserialize, Serialize};
 
 use super::input::keys;
@@ -65,8 +65,6 @@ pub struct App {
     /// Details of the selected subject.
     selected: Option<Details>,
     highlight: Highlight,
-    /// Rectangle of the narration or of the lesson in this frame, if one is shown.
-    narration_rect: Option<Rect>,
     /// `Session::runs_begun` at the last frame.
     runs_begun: usize,
     /// Presentation mode: large text, strong colours, no controls.
@@ -132,7 +130,6 @@ impl App {
             hovered: None,
             selected: None,
             highlight: Highlight::default(),
-            narration_rect: None,
             runs_begun: 0,
             projector: stored.projector,
             quitting: Quitting::default(),
@@ -197,9 +194,9 @@ impl App {
     fn panels(&mut self, ui: &mut Ui) {
         let language = self.session.language();
         self.session.stage_mut().hides_later = self.learn.is_on();
-        self.narration_rect = None;
         self.bars(ui);
         if self.shows_page() {
+            self.notice_panel(ui);
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
             ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
                 if self.gallery.is_open() {
@@ -224,16 +221,20 @@ impl App {
             self.machines(ui);
         }
         let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID, language);
-        let height = lesson.unwrap_or_else(|| narration::height(ui));
-        let narration = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
-        let narration = narration.show(ui, |ui| {
+        let notice = self.notice_height(ui);
+        let height = lesson.unwrap_or_else(|| narration::height(ui, notice));
+        let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
+        words.show(ui, |ui| {
             if lesson.is_some() {
                 self.learn.show_step(ui, &mut self.session);
             } else {
-                narration::show(ui, &self.session, self.selected.as_ref());
+                let place = narration::show(ui, &self.session, self.selected.as_ref(), notice);
+                self.notices(ui, place);
             }
         });
-        self.narration_rect = Some(narration.response.rect);
+        if lesson.is_some() {
+            self.notice_panel(ui);
+        }
         // A low window has no room for the time bar beside a lesson, and a lesson has its own buttons.
         let is_tight = lesson.is_some() && ui.ctx().content_rect().height() < 560.0;
         if !(self.projector || is_tight) || self.time.is_finding() {
@@ -328,7 +329,7 @@ impl App {
         }
         let size = self.session.header().size;
         let (left, right) = split_main_area(area, size.width() as f32 / size.height() as f32);
-        let within = |rect: Rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
+        let within = |rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
         ui.scope_builder(within(left), |ui| {
             self.picture.show(ui, &mut self.session, &mut self.selection, &self.highlight)
         });
@@ -380,7 +381,6 @@ impl eframe::App for App {
         if let Some(refused) = RefusedNumber::take(ui.ctx()) {
             self.session.trouble(refused.sentence(language));
         }
-        self.notices(ui.ctx());
         self.ask_to_quit(ui.ctx());
         if self.help && help::show(ui.ctx(), language) {
             self.help = false;
