@@ -46,26 +46,9 @@ fn windows_of_every_size_show_all_widgets() {
 }
 
 #[test]
-fn smallest_window_shows_all_machines_and_the_save_row() {
+fn smallest_window_shows_all_machines() {
     for size in [[1024.0, 640.0], [800.0, 500.0]] {
-        let mut window = open(size);
-        key(&mut window, Key::S);
-        window.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
-        key(&mut window, Key::Delete);
-        key(&mut window, Key::Enter);
-        let words = window.get_by_label_contains("There is no path").rect();
-        for name in ["Picture", "The ring"] {
-            let rect = rect(&window, name);
-            assert!(rect.top() >= words.bottom() && rect.area() > 1000.0, "{name} at {size:?}: {rect:?}");
-        }
-        let bar = rect(&window, "Who has traced how much");
-        assert!(["Picture", "The ring"].iter().all(|name| rect(&window, name).bottom() <= bar.top()));
-        assert!(rect(&window, "Picture").right() < rect(&window, "The ring").left());
-        // A low window shows the kinds in a list.
-        let kinds = if size[1] < 600.0 { ["What to save"; 2] } else { ["render", "Perfetto"] };
-        for name in ["Save", "Browse…", "Close save"].into_iter().chain(kinds) {
-            assert!(whole(size).contains_rect(rect(&window, name)), "{name} at {size:?}");
-        }
+        let window = open(size);
         for node in 1..=8 {
             let row = rect(&window, &format!("Machine {node}"));
             assert!(whole(size).contains_rect(row), "node {node} at {size:?}: {row:?}");
@@ -73,6 +56,27 @@ fn smallest_window_shows_all_machines_and_the_save_row() {
                 let part = rect(&window, &format!("{part} {node}")).shrink(2.0);
                 assert!(row.contains_rect(part), "{part:?} {row:?} at {size:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn save_sheet_leaves_the_picture_where_it_is() {
+    for size in [[1920.0, 1080.0], [1280.0, 800.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
+        let mut window = open(size);
+        let picture = rect(&window, "Picture");
+        key(&mut window, Key::S);
+        assert_eq!(rect(&window, "Picture"), picture, "{size:?}");
+        window.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+        key(&mut window, Key::Delete);
+        key(&mut window, Key::Enter);
+        let sheet = rect(&window, "Preview").union(rect(&window, "Path of the file"));
+        // A narrow window has no room beside the sheet.
+        assert!(sheet.left() > picture.right() || size[0] < 900.0, "{size:?}: {sheet:?} {picture:?}");
+        let words = window.get_by_label_contains("There is no path").rect();
+        assert!(whole(size).contains_rect(words), "{size:?}: {words:?}");
+        for name in ["Save", "Browse…", "Copy picture", "Close save", "render", "Perfetto", "Preview"] {
+            assert!(whole(size).contains_rect(rect(&window, name)), "{name} at {size:?}: {:?}", rect(&window, name));
         }
     }
 }

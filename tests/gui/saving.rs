@@ -38,7 +38,7 @@ fn save_writes_the_render_and_names_the_file() {
     assert_eq!(picture.dimensions(), (640, 480));
     let black = picture.pixels().filter(|pixel| pixel.0 == [0; 3]).count();
     assert!(black > 1000 && black < 640 * 480 - 1000, "{black} black pixels");
-    // The row stays open for another file.
+    // The sheet stays open for another file.
     assert!(window.query_by_label(FIELD).is_some());
 }
 
@@ -210,9 +210,15 @@ fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
     window.get_by_label_contains("The shape differs from the picture's");
     escape(&mut window);
     let path = save(&mut window, "huge.png");
-    press(&mut window, "4K");
+    press(&mut window, "Own size");
     assert!(window.query_by_label_contains("The shape differs from the picture's").is_none());
-    assert_eq!(window.get_by_role_and_label(Role::SpinButton, "Pixels across").value().as_deref(), Some("2880"));
+    press(&mut window, "4K");
+    window.get_by_label_contains("The shape differs from the picture's");
+    for (side, pixels) in [("Pixels across", "3840"), ("Pixels down", "2160")] {
+        let field = window.get_by_role_and_label(Role::SpinButton, side);
+        assert_eq!(field.value().as_deref(), Some(pixels));
+    }
+    window.get_by_label_contains("PNG · 3840 × 2160 pixels");
     type_number(&mut window, "Samples a pixel", "16");
     press(&mut window, "Save");
     until(&mut window, "progress", |window| window.query_by_label("Cancel").is_some());
@@ -231,27 +237,76 @@ fn retype_path(window: &mut Window, path: &Path) {
 }
 
 #[test]
-fn second_export_waits_for_the_first() {
+fn pictures_wait_for_each_other_and_can_be_cancelled_one_by_one() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);
     press(&mut window, "Save…");
+    let path = |name: &str| directory.path().join(name);
+    let save = |window: &mut Window, kind: &str, name: &str| {
+        choose_kind(window, kind);
+        retype_path(window, &path(name));
+        press(window, "Save");
+    };
+    choose_kind(&mut window, "animation");
+    type_number(&mut window, "Seconds of the animation", "1");
+    type_number(&mut window, "Width of the picture in the animation", "100");
     choose_kind(&mut window, "any size");
     press(&mut window, "4K");
     type_number(&mut window, "Samples a pixel", "16");
-    let huge = directory.path().join("huge.png");
-    retype_path(&mut window, &huge);
-    press(&mut window, "Save");
-    choose_kind(&mut window, "timeline");
-    let timeline = directory.path().join("timeline.svg");
-    retype_path(&mut window, &timeline);
-    press(&mut window, "Save");
-    until(&mut window, "progress", |window| window.query_by_label_contains("then 1 more").is_some());
-    let waiting: Vec<String> = session(&window).files_in_progress().into_iter().map(|(name, _)| name).collect();
-    assert_eq!(waiting, ["huge.png", "timeline.svg"]);
-    press(&mut window, "Cancel");
+    save(&mut window, "any size", "huge.png");
+    save(&mut window, "any size", "other.png");
+    save(&mut window, "animation", "run.gif");
+    // What is quickly written does not wait.
+    save(&mut window, "timeline", "timeline.svg");
     until(&mut window, "notice", |window| notice(window).contains("timeline.svg"));
-    assert!(timeline.is_file() && !huge.exists());
+    let names =
+        |window: &Window| -> Vec<String> { session(window).exports().map(|export| export.name.to_owned()).collect() };
+    assert_eq!(names(&window), ["huge.png", "other.png", "run.gif"]);
+    window.get_by_label("other.png waits");
+    press(&mut window, "Cancel other.png");
+    assert_eq!(names(&window), ["huge.png", "run.gif"]);
+    // Without the sheet, a message shows the progress.
+    escape(&mut window);
+    window.get_by_label("Writing huge.png");
+    window.get_by_label_contains("then 1 more");
+    press(&mut window, "Cancel");
+    until(&mut window, "notice", |window| notice(window).contains("run.gif"));
+    assert_eq!(image::image_dimensions(path("run.gif")).expect("a GIF"), (521, 396));
+    assert!(path("timeline.svg").is_file() && !path("huge.png").exists() && !path("other.png").exists());
+    // The next window remembers length and width.
+    let mut storage = Storage::default();
+    eframe::App::save(window.state_mut(), &mut storage);
+    let mut again = launch_with(SIZE, &storage, anel::gui::Launch::default());
+    press(&mut again, "Save…");
+    choose_kind(&mut again, "animation");
+    let value = |name: &str| again.get_by_role_and_label(Role::SpinButton, name).value();
+    assert_eq!(value("Seconds of the animation").as_deref(), Some("1 s"));
+    assert_eq!(value("Width of the picture in the animation").as_deref(), Some("100 px"));
+}
+
+#[test]
+fn preview_shows_what_will_be_saved() {
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 100);
+    press(&mut window, "Save…");
+    let preview = |window: &Window| window.get_by_label("Preview").value().unwrap_or_default();
+    for (kind, size) in [
+        ("render", "640 × 480"),
+        ("costs", "640 × 480"),
+        ("any size", "1280 × 960"),
+        ("ring", "900 × "),
+        ("timeline", "1200 × "),
+        ("animation", "948 × 436"),
+        ("run", "All records of the run, to play it again"),
+    ] {
+        choose_kind(&mut window, kind);
+        until(&mut window, kind, |window| preview(window).starts_with(size));
+    }
+    choose_kind(&mut window, "any size");
+    press(&mut window, "Transparent");
+    press(&mut window, "4K");
+    until(&mut window, "the other size", |window| preview(window) == "3840 × 2160");
 }
 
 #[test]
@@ -366,7 +421,7 @@ fn name_of_another_format_is_refused() {
 }
 
 #[test]
-fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
+fn no_letter_is_a_shortcut_while_the_save_sheet_is_open() {
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);
     key(&mut window, Key::S);
@@ -400,7 +455,7 @@ fn file_is_replaced_only_after_a_second_press() {
     window.get_by_label("there.png exists. Press Save again to replace it");
     // After a change of the path the question comes again.
     window.event(egui::Event::Text("x".into()));
-    window.step();
+    window.run_steps(2);
     assert!(window.query_by_label_contains("exists").is_none());
     key(&mut window, Key::Backspace);
     press(&mut window, "Save");

@@ -7,6 +7,7 @@ mod notices;
 mod open_stack;
 mod quitting;
 mod repaint_schedule;
+mod saving;
 mod stored_path;
 
 use std::time::Duration;
@@ -24,7 +25,7 @@ use super::pages::gallery::Gallery;
 use super::pages::help;
 use super::pages::learn::Learn;
 use super::panels::picture::PicturePanel;
-use super::panels::save_bar::{SaveBar, SaveSubject};
+use super::panels::save_sheet::{FilmOptions, SaveSheet};
 use super::panels::setup::{self, SetupPanel};
 use super::panels::time::{self, TimePanel};
 use super::panels::timeline::{self, TimelinePanel};
@@ -49,7 +50,7 @@ pub struct App {
     session: Session,
     picture: PicturePanel,
     time: TimePanel,
-    save_bar: SaveBar,
+    save_sheet: SaveSheet,
     setup: SetupPanel,
     gallery: Gallery,
     accuracy: Accuracy,
@@ -87,6 +88,7 @@ struct StoredState {
     shows_timeline: bool,
     language: Option<Language>,
     projector: bool,
+    film: FilmOptions,
 }
 
 /// Key of [`StoredState`] in eframe's storage.
@@ -117,7 +119,7 @@ impl App {
             session,
             picture,
             time: TimePanel::default(),
-            save_bar: SaveBar::default(),
+            save_sheet: SaveSheet::new(stored.film),
             setup: SetupPanel::new(stored.is_setup_open),
             gallery: Gallery::default(),
             accuracy: Accuracy::default(),
@@ -190,11 +192,25 @@ impl App {
         }
     }
 
-    /// Shows the bars and, below them, the open page or the panels of the run.
+    /// Shows the top bar and, below it, the open page or the panels of the run, and the save sheet if it is open.
     fn panels(&mut self, ui: &mut Ui) {
-        let language = self.session.language();
         self.session.stage_mut().hides_later = self.learn.is_on();
-        self.bars(ui);
+        self.bar(ui);
+        let area = ui.available_rect_before_wrap();
+        if !self.save_sheet.is_open() {
+            self.page_or_run(ui, 0.0);
+        } else if self.has_room_for_sheet(area) {
+            let width = self.sheet_beside(ui);
+            self.page_or_run(ui, width);
+        } else {
+            self.page_or_run(ui, 0.0);
+            self.sheet_over(ui.ctx(), area);
+        }
+    }
+
+    /// Shows the open page, or the panels of the run beside a save sheet of this width.
+    fn page_or_run(&mut self, ui: &mut Ui, sheet: f32) {
+        let language = self.session.language();
         if self.shows_page() {
             self.notice_panel(ui);
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
@@ -218,7 +234,7 @@ impl App {
         self.update_highlight();
         // The audience of a projector only looks; its presenter uses keys.
         if self.shows_timeline || !self.projector {
-            self.machines(ui);
+            self.machines(ui, sheet);
         }
         let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID, language);
         let notice = self.notice_height(ui);
@@ -244,11 +260,11 @@ impl App {
                 self.handle_command(command, ui.ctx());
             }
         }
-        self.main_area(ui);
+        self.main_area(ui, sheet);
     }
 
-    /// Shows the top bar and, if it is open, the save bar.
-    fn bars(&mut self, ui: &mut Ui) {
+    /// Shows the top bar.
+    fn bar(&mut self, ui: &mut Ui) {
         if !self.projector {
             let open = top_bar::OpenPages {
                 scenes: self.gallery.is_open(),
@@ -256,32 +272,23 @@ impl App {
                 compare: self.compare.is_open(),
                 learn: self.learn.is_open() || self.learn.is_on(),
                 setup: self.setup.open,
-                save: self.save_bar.is_open(),
+                save: self.save_sheet.is_open(),
             };
             let bar = |ui: &mut Ui| top_bar::show(ui, &self.session, open);
             if let Some(command) = Panel::top("top bar").frame(panel(8, 8)).show(ui, bar).inner {
                 self.handle_command(command, ui.ctx());
             }
         }
-        if self.save_bar.is_open() {
-            let subject = match self.compare.is_open() {
-                true => SaveSubject::Comparison(self.compare.comparison()),
-                false => SaveSubject::Run(self.picture.shown()),
-            };
-            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, &subject);
-            if let Some(command) = Panel::top("save bar").frame(panel(8, 8)).show(ui, bar).inner {
-                self.handle_command(command, ui.ctx());
-            }
-        }
     }
 
     /// Shows the table of machines, or the timeline.
-    fn machines(&mut self, ui: &mut Ui) {
+    fn machines(&mut self, ui: &mut Ui, sheet: f32) {
         let nodes = self.session.header().speeds.len();
         let height = if self.shows_timeline {
             timeline::height(ui, nodes, self.learn.is_on())
         } else {
-            nodes::height(ui, nodes)
+            // The save sheet does not change the height, so that the picture stays where it is.
+            nodes::height(ui, ui.available_width() + sheet, nodes)
         };
         let below = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height + 14.0);
         below.show(ui, |ui| {
@@ -321,22 +328,24 @@ impl App {
     }
 
     /// Shows the picture and, beside it, the ring or the inspector.
-    fn main_area(&mut self, ui: &mut Ui) {
+    fn main_area(&mut self, ui: &mut Ui, sheet: f32) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         // In less height both would be cut off.
         if area.height() < 7.0 * GRID {
             return;
         }
         let size = self.session.header().size;
-        let (left, right) = split_main_area(area, size.width() as f32 / size.height() as f32);
+        let (left, right) = split_main_area(area, size.width() as f32 / size.height() as f32, sheet);
         let within = |rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
         ui.scope_builder(within(left), |ui| {
             self.picture.show(ui, &mut self.session, &mut self.selection, &self.highlight)
         });
-        ui.scope_builder(within(right), |ui| match self.session.inspected_pixel() {
-            Some(pixel) => inspector::show(ui, pixel, &mut self.session),
-            None => ring::show(ui, &mut self.session, &mut self.selection, &self.highlight),
-        });
+        if let Some(right) = right {
+            ui.scope_builder(within(right), |ui| match self.session.inspected_pixel() {
+                Some(pixel) => inspector::show(ui, pixel, &mut self.session),
+                None => ring::show(ui, &mut self.session, &mut self.selection, &self.highlight),
+            });
+        }
     }
 }
 
@@ -346,13 +355,14 @@ impl eframe::App for App {
         self.take_dropped(ctx);
         for done in self.session.tick(ctx.input(|input| input.time)) {
             match done {
-                JobResult::Chosen(Purpose::Save, chosen) => self.save_bar.take_chosen(chosen, language),
+                JobResult::Chosen(Purpose::Save, chosen) => self.save_sheet.take_chosen(chosen, language),
                 JobResult::Chosen(Purpose::Learn, chosen) => self.learn.take_chosen(chosen, &mut self.session),
                 JobResult::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
                 JobResult::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
                 JobResult::LessonOpened(lesson) => self.learn.open(lesson, &mut self.session),
                 JobResult::LessonPrepared(job, prepared) => self.learn.take(job, prepared, &mut self.session),
                 JobResult::Compared(job, result) => self.compare.take(job, result),
+                JobResult::ExportPreviewed(job, made) => self.save_sheet.take_preview(ctx, job, made),
                 JobResult::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
                 _ => {}
             }
@@ -372,7 +382,7 @@ impl eframe::App for App {
         let language = self.session.language();
         zoom::keys(ui.ctx());
         // While a path field is open, letters belong to it, even if it does not have the focus.
-        let is_typing = ui.ctx().text_edit_focused() || self.save_bar.is_open() || self.gallery.is_open();
+        let is_typing = ui.ctx().text_edit_focused() || self.save_sheet.is_open() || self.gallery.is_open();
         for command in keys::pressed(ui.ctx(), is_typing) {
             self.handle_command(command, ui.ctx());
         }
@@ -405,6 +415,7 @@ impl eframe::App for App {
             shows_timeline: self.shows_timeline,
             language: Some(self.session.language()),
             projector: self.projector,
+            film: self.save_sheet.film(),
         };
         eframe::set_value(storage, STORAGE_KEY, &stored);
     }

@@ -26,13 +26,13 @@ impl App {
         match notice::show(ui, area, &self.session, self.lists_exports()) {
             Some(NoticeAction::Close) => self.session.close_notice(),
             Some(NoticeAction::Reload) => self.session.reload(),
-            Some(NoticeAction::CancelExport) => self.session.cancel_export(),
+            Some(NoticeAction::CancelExport(job)) => self.session.cancel_export(job),
             None => {}
         }
     }
 
-    /// Whether the progress of saving is one of the messages.
+    /// Whether the progress of saving is one of the messages; the save sheet shows it otherwise.
     fn lists_exports(&self) -> bool {
-        true
+        !self.save_sheet.is_open()
     }
 }

@@ -6,7 +6,7 @@ pub mod nodes;
 pub mod notice;
 pub mod picture;
 pub mod ring;
-pub mod save_bar;
+pub mod save_sheet;
 pub mod setup;
 pub mod time;
 pub mod timeline;

@@ -16,8 +16,8 @@ pub enum NoticeAction {
     Close,
     /// Reads the file of the scene again.
     Reload,
-    /// Cancels the file that is being written.
-    CancelExport,
+    /// Cancels the file of this job.
+    CancelExport(u64),
 }
 
 /// Least height of a message, in points.
@@ -33,8 +33,8 @@ const SHORT_S: f64 = 0.4;
 
 /// What there is to say.
 struct Messages<'a> {
-    /// The file that is being written, unless another panel shows it.
-    export: Option<ExportProgress<'a>>,
+    /// The file that is being written, unless another panel shows it, and the number of those that wait.
+    export: Option<(ExportProgress<'a>, usize)>,
     /// The notice to be read now, and the number of those that wait behind it.
     notice: Option<(&'a Notice, usize)>,
     /// Name of what is being read and compiled.
@@ -43,7 +43,9 @@ struct Messages<'a> {
 
 impl<'a> Messages<'a> {
     fn of(session: &'a Session, lists_exports: bool) -> Self {
-        let export = session.export_progress().filter(|export| lists_exports && export.elapsed_s > SHORT_S);
+        let is_long = |export: &ExportProgress<'_>| export.done.is_some_and(|(elapsed_s, _)| elapsed_s > SHORT_S);
+        let waiting = session.exports().filter(|export| export.done.is_none()).count();
+        let export = session.exports().find(is_long).filter(|_| lists_exports).map(|export| (export, waiting));
         let notice = session.notice().map(|notice| (notice, session.notices_waiting()));
         let loading = session.loading().filter(|(_, secs)| *secs > SHORT_S).map(|(name, _)| name);
         Self { export, notice, loading: loading.filter(|_| notice.is_none()) }
@@ -126,8 +128,9 @@ fn loading_row(ui: &mut Ui, name: &str, language: Language) {
 }
 
 /// Shows the progress of an export, with a button that cancels it.
-fn export_row(ui: &mut Ui, export: ExportProgress<'_>, language: Language) -> Option<NoticeAction> {
-    let ExportProgress { name, elapsed_s, share, waiting } = export;
+fn export_row(ui: &mut Ui, (export, waiting): (ExportProgress<'_>, usize), language: Language) -> Option<NoticeAction> {
+    let ExportProgress { job, name, done, .. } = export;
+    let (elapsed_s, share) = done.unwrap_or_default();
     let look = Look::of(ui.ctx());
     let text = say!(language, "Writing {name}", "Gravando {name}");
     ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
@@ -141,7 +144,7 @@ fn export_row(ui: &mut Ui, export: ExportProgress<'_>, language: Language) -> Op
     let others = (waiting > 0).then(|| say!(language, "then {waiting} more", "depois mais {waiting}"));
     quiet(ui, done.into_iter().chain([others]).flatten().collect::<Vec<_>>().join(" · "));
     let cancel = button(ui, None, word!(language, "Cancel", "Cancelar"), true, Emphasis::Quiet);
-    cancel.clicked().then_some(NoticeAction::CancelExport)
+    cancel.clicked().then_some(NoticeAction::CancelExport(job))
 }
 
 fn quiet(ui: &mut Ui, text: String) {
@@ -150,7 +153,7 @@ fn quiet(ui: &mut Ui, text: String) {
 }
 
 /// Returns a text of the time that is left; `None` while there is too little to estimate it from.
-fn time_left(secs: f64, share: f64, language: Language) -> Option<String> {
+pub fn time_left(secs: f64, share: f64, language: Language) -> Option<String> {
     let left = (secs / share - secs).ceil();
     if secs < 1.5 || share < 0.01 || left < 1.0 {
         return None;

@@ -2,6 +2,8 @@
 //! and clocks: those of runs are behind [`RunSource`], all others in [`jobs`].
 
 mod comparing;
+mod export_file;
+mod export_preview;
 mod exporting;
 mod failing;
 mod files;
@@ -19,7 +21,6 @@ mod stage;
 mod teaching;
 mod timing;
 
-use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -37,13 +38,14 @@ use crate::time::Time;
 use opening::Opening;
 
 pub use comparing::{ComparisonSubject, PictureSource, TracingProgress};
-pub use exporting::{Export, ExportProgress, PictureExport};
-use exporting::{ExportJob, PendingExport};
+pub use export_file::{Export, PictureExport};
+use exporting::ExportJob;
+pub use exporting::ExportProgress;
 use inspecting::Inspecting;
 use job_result::Ready;
 pub use job_result::{
-    CameraPreview, CompareResult, Finding, Growth, GrowthPoint, JobResult, Prepared, PreparedLesson, Purpose, Recorded,
-    Thumbnail, TracedOnce,
+    CameraPreview, CompareResult, ExportPreview, Finding, Growth, GrowthPoint, JobResult, Prepared, PreparedLesson,
+    Purpose, Recorded, Thumbnail, TracedOnce,
 };
 use jobs::Jobs;
 use moving::CameraMove;
@@ -76,10 +78,8 @@ pub struct Session {
     /// Number of measurements that have not ended, cancelled ones included.
     measurements: usize,
     notices: Notices,
-    export_job: Option<ExportJob>,
-    exports_waiting: VecDeque<PendingExport>,
-    /// By job: the name of the file that is being saved.
-    saving: BTreeMap<u64, String>,
+    /// Files that are being written, or wait for that.
+    exports: Vec<ExportJob>,
     /// File for the records of each run (`--log`).
     log_path: Option<PathBuf>,
     /// Recently opened files, the latest first.
@@ -124,9 +124,7 @@ impl Session {
             runs_begun: 0,
             measurements: 0,
             notices: Notices::default(),
-            export_job: None,
-            exports_waiting: VecDeque::new(),
-            saving: BTreeMap::new(),
+            exports: Vec::new(),
             log_path,
             recent: Vec::new(),
             ground,
@@ -160,7 +158,7 @@ impl Session {
     }
 
     /// Updates the stage and handles the results of jobs since the last call; `clock` is egui's, in seconds. Returns
-    /// the results that are for the pages and the save bar.
+    /// the results that are for the pages and the save sheet.
     pub fn tick(&mut self, clock: f64) -> Vec<JobResult> {
         self.clock = clock;
         if self.stage.tick(clock) {
@@ -185,7 +183,6 @@ impl Session {
                 }
                 // Another file was opened meanwhile.
                 JobResult::Ready(..) => {}
-                JobResult::Saved(job, result) => self.take_saved(job, result),
                 JobResult::Failed(why) => self.trouble(why),
                 JobResult::Progress(job, share) => self.take_progress(job, share),
                 JobResult::Exported(job, result) => self.take_exported(job, result),
@@ -198,6 +195,7 @@ impl Session {
                 JobResult::CameraPreview(preview) => self.take_camera_preview(preview),
                 result @ (JobResult::Chosen(..)
                 | JobResult::Thumbnail(..)
+                | JobResult::ExportPreviewed(..)
                 | JobResult::Compared(..)
                 | JobResult::LessonOpened(..)
                 | JobResult::LessonPrepared(..)) => others.push(result),

@@ -19,9 +19,10 @@ use crate::view::{
 };
 use row_layout::{HEAD_HEIGHT_PT, RowGrid, RowLayout};
 
-/// Returns the height of the panel for this number of machines: at most about a third of the window; then it scrolls.
-pub fn height(ui: &Ui, nodes: usize) -> f32 {
-    let grid = RowGrid::new(nodes, ui.available_width() - 4.0 * GRID);
+/// Returns the height of the panel for this number of machines in this width: at most about a third of the window; then
+/// it scrolls.
+pub fn height(ui: &Ui, width: f32, nodes: usize) -> f32 {
+    let grid = RowGrid::new(nodes, width - 4.0 * GRID);
     let max = if grid.is_dense() { 0.36 } else { 0.3 } * ui.ctx().content_rect().height();
     grid.height().min(max.max(HEAD_HEIGHT_PT + grid.row))
 }
