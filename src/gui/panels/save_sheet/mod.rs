@@ -235,8 +235,8 @@ impl SaveSheet {
         ui.spacing_mut().item_spacing.y = GRID / 2.0;
         ui.add_space(GRID / 2.0);
         let shown = self.trouble.clone();
-        // What appears and disappears stands above the buttons, which stay where they are. In a scope of its own it does
-        // not change the identity of the path field, which would lose the focus.
+        // What appears and disappears stands above the buttons, which stay where they are. In a scope of its own it
+        // does not change the identity of the path field, which would lose the focus.
         ui.scope(|ui| {
             queue::show(ui, session);
             if let Some(trouble) = &self.trouble {
