@@ -329,7 +329,7 @@ fn bandwidth(text: &str) -> Result<f64, String> {
 }
 
 fn film_seconds(text: &str) -> Result<Duration, String> {
-    let seconds = number(text, |seconds| (1.0..=120.0).contains(&seconds), "write a number of seconds from 1 to 120")?;
+    let seconds = number(text, |seconds| Film::SECONDS.contains(&seconds), "write a number of seconds from 1 to 120")?;
     Ok(Duration::from_secs_f64(seconds))
 }
 

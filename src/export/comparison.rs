@@ -69,19 +69,24 @@ impl Comparison {
         table.flush()
     }
 
-    /// Writes the time budgets of the runs that end as a bar chart: as PNG if `is_png`, else as SVG. Returns the
-    /// letters that no font of this computer has, and that are drawn as boxes.
-    ///
-    /// # Errors
-    /// The error of writing to `to`; an [`ExportError`](super::ExportError), if the chart cannot become pixels.
-    pub fn write_bars(&self, to: impl Write, is_png: bool) -> io::Result<BTreeSet<char>> {
+    /// Returns the time budgets of the runs that end as a bar chart in SVG.
+    pub fn bars_svg(&self) -> String {
         let names: Vec<String> = self.runs.iter().map(ComparisonEntry::name).collect();
         let accounts = self.runs.iter().map(|run| run.account.as_ref());
         let runs: Vec<(&str, &TimeBudget)> =
             names.iter().zip(accounts).filter_map(|(name, account)| Some((name.as_str(), account?))).collect();
         let title = format!("{}, {}, in virtual time", self.title, self.size);
         let PrintedDrawing { marks, size } = PrintedDrawing::comparison(&title, &runs, Language::English);
-        write_drawing(to, &to_svg(&marks, size), is_png)
+        to_svg(&marks, size)
+    }
+
+    /// Writes the bar chart: as PNG if `is_png`, else as SVG. Returns the letters that no font of this computer has,
+    /// and that are drawn as boxes.
+    ///
+    /// # Errors
+    /// The error of writing to `to`; an [`ExportError`](super::ExportError), if the chart cannot become pixels.
+    pub fn write_bars(&self, to: impl Write, is_png: bool) -> io::Result<BTreeSet<char>> {
+        write_drawing(to, &self.bars_svg(), is_png)
     }
 }
 

@@ -20,6 +20,9 @@ pub enum Drawing {
 }
 
 impl Drawing {
+    /// Pixels of a PNG in a unit of the SVG.
+    pub const PNG_SCALE: f32 = 2.0;
+
     /// Returns the drawing as SVG.
     pub fn svg(self, log: &RunLog) -> String {
         let PrintedDrawing { marks, size } = match self {
@@ -41,15 +44,13 @@ impl Drawing {
 
 /// Writes an SVG text, as pixels in PNG if `is_png`. Returns the letters that cannot be drawn.
 pub(super) fn write_drawing(mut to: impl Write, svg: &str, is_png: bool) -> io::Result<BTreeSet<char>> {
-    /// Pixels in a unit of the SVG.
-    const SCALE: f32 = 2.0;
     if !is_png {
         to.write_all(svg.as_bytes())?;
         // The program that shows it has fonts of its own.
         return Ok(BTreeSet::new());
     }
     let raster = Raster::new(svg);
-    let (size, rgb) = raster.draw(svg, SCALE).map_err(io::Error::other)?;
+    let (size, rgb) = raster.draw(svg, Drawing::PNG_SCALE).map_err(io::Error::other)?;
     encode_png(to, size, &rgb)?;
     Ok(raster.missing().clone())
 }

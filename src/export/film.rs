@@ -57,6 +57,30 @@ impl Film {
     /// Possible values of [`Film::width`].
     pub const WIDTHS: std::ops::RangeInclusive<u32> = 100..=1920;
 
+    /// Possible values of [`Film::length`], in seconds.
+    pub const SECONDS: std::ops::RangeInclusive<f64> = 1.0..=120.0;
+
+    /// Returns width and height of the animation of a picture, in pixels.
+    pub fn size(self, picture: Size) -> [u32; 2] {
+        Layout::new(self.width, picture).whole
+    }
+
+    /// Returns how long the whole animation takes: the run, then its end.
+    pub fn duration(self) -> Duration {
+        self.length + Duration::from_millis(10 * u64::from(END_CENTISECONDS + RENDER_CENTISECONDS))
+    }
+
+    /// Draws the frame of a time of the run. Returns its size and its pixels: three bytes each, in scan order.
+    ///
+    /// # Errors
+    /// An [`ExportError`], if it cannot be drawn.
+    pub fn still(self, log: &RunLog, frame: &Frame, at: Time) -> Result<(Size, Vec<u8>), ExportError> {
+        let mut film_frames = FilmFrames::new(log, frame, self, Layout::new(self.width, log.header.size));
+        let image = film_frames.at(at.min(film_frames.end), at >= film_frames.end)?;
+        let size = Size::new(image.width(), image.height()).map_err(|error| ExportError::Size(error.into()))?;
+        Ok((size, image.into_raw()))
+    }
+
     /// Writes a run whose picture is `frame` as an endlessly repeating GIF. `tell` gets the finished fraction, 0 to 1,
     /// and returns whether to go on.
     ///

@@ -93,7 +93,7 @@ pub fn speeds_set(window: &Window) -> Vec<(u16, f64)> {
     recorded(window, |what| if let RecordKind::SpeedSet { node, speed } = what { Some((*node, *speed)) } else { None })
 }
 
-/// The text of the notice below the top bar.
+/// The text of the notice.
 pub fn notice(window: &Window) -> String {
     session(window).notice().map(|notice| notice.text.clone()).unwrap_or_default()
 }

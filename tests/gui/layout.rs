@@ -1,7 +1,8 @@
 //! Nothing is cut off in windows of any size, with and without the panels.
 
+use egui::accesskit::Role;
 use egui::{Key, Pos2, Rect};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::driving::*;
 
@@ -45,26 +46,9 @@ fn windows_of_every_size_show_all_widgets() {
 }
 
 #[test]
-fn smallest_window_shows_all_machines_and_the_save_row() {
+fn smallest_window_shows_all_machines() {
     for size in [[1024.0, 640.0], [800.0, 500.0]] {
-        let mut window = open(size);
-        key(&mut window, Key::S);
-        window.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
-        key(&mut window, Key::Delete);
-        key(&mut window, Key::Enter);
-        let words = window.get_by_label_contains("There is no path").rect();
-        for name in ["Picture", "The ring"] {
-            let rect = rect(&window, name);
-            assert!(rect.top() >= words.bottom() && rect.area() > 1000.0, "{name} at {size:?}: {rect:?}");
-        }
-        let bar = rect(&window, "Who has traced how much");
-        assert!(["Picture", "The ring"].iter().all(|name| rect(&window, name).bottom() <= bar.top()));
-        assert!(rect(&window, "Picture").right() < rect(&window, "The ring").left());
-        // A low window shows the kinds in a list.
-        let kinds = if size[1] < 600.0 { ["What to save"; 2] } else { ["render", "Perfetto"] };
-        for name in ["Save", "Browse…", "Close save"].into_iter().chain(kinds) {
-            assert!(whole(size).contains_rect(rect(&window, name)), "{name} at {size:?}");
-        }
+        let window = open(size);
         for node in 1..=8 {
             let row = rect(&window, &format!("Machine {node}"));
             assert!(whole(size).contains_rect(row), "node {node} at {size:?}: {row:?}");
@@ -72,6 +56,27 @@ fn smallest_window_shows_all_machines_and_the_save_row() {
                 let part = rect(&window, &format!("{part} {node}")).shrink(2.0);
                 assert!(row.contains_rect(part), "{part:?} {row:?} at {size:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn save_sheet_leaves_the_picture_where_it_is() {
+    for size in [[1920.0, 1080.0], [1280.0, 800.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
+        let mut window = open(size);
+        let picture = rect(&window, "Picture");
+        key(&mut window, Key::S);
+        assert_eq!(rect(&window, "Picture"), picture, "{size:?}");
+        window.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+        key(&mut window, Key::Delete);
+        key(&mut window, Key::Enter);
+        let sheet = rect(&window, "Preview").union(rect(&window, "Path of the file"));
+        // A narrow window has no room beside the sheet.
+        assert!(sheet.left() > picture.right() || size[0] < 900.0, "{size:?}: {sheet:?} {picture:?}");
+        let words = window.get_by_label_contains("There is no path").rect();
+        assert!(whole(size).contains_rect(words), "{size:?}: {words:?}");
+        for name in ["Save", "Browse…", "Copy picture", "Close save", "render", "Perfetto", "Preview"] {
+            assert!(whole(size).contains_rect(rect(&window, name)), "{name} at {size:?}: {:?}", rect(&window, name));
         }
     }
 }
@@ -136,4 +141,38 @@ fn split_is_dragged_and_remembered() {
     let mut window = launch_with(SIZE, &storage, anel::gui::Launch::default());
     window.run_steps(3);
     assert!((rect(&window, "The ring").height() - dragged).abs() < 1.0);
+}
+
+/// Shows a notice in each of these states of the window, and checks that it covers nothing.
+#[test]
+fn notice_has_a_place_of_its_own() {
+    let seen =
+        [Role::Button, Role::Slider, Role::SpinButton, Role::TextInput, Role::ComboBox, Role::Image, Role::Label];
+    for size in [[1024.0, 640.0], [1280.0, 800.0], [1920.0, 1080.0], [683.0, 427.0]] {
+        let mut window = open(size);
+        until(&mut window, "traced atoms", |window| done(window) > 200);
+        for opened in [None, Some(Key::Num3), Some(Key::E), Some(Key::T), Some(Key::K), Some(Key::N)] {
+            opened.into_iter().for_each(|opened| key(&mut window, opened));
+            if opened == Some(Key::N) {
+                press(&mut window, "What is an atom?");
+                until(&mut window, "a lesson", |window| window.state().lesson().is_some());
+            }
+            window.event(egui::Event::Copy);
+            window.run_steps(4);
+            let words = window.get_by_label("The picture is copied to the clipboard").rect();
+            let notice = words.union(rect(&window, "Close notice"));
+            assert!(whole(size).contains_rect(notice), "{opened:?} at {size:?}: {notice:?}");
+            for role in seen {
+                for node in window.query_all_by_role(role) {
+                    let node_of_it = node.accesskit_node();
+                    let name = node_of_it.label().or(node_of_it.value()).unwrap_or_default();
+                    let is_own = ["The picture is copied to the clipboard", "Close notice"].contains(&&*name);
+                    let both = node.rect().intersect(notice);
+                    let is_covered = !is_own && both.width() > 1.0 && both.height() > 1.0;
+                    assert!(!is_covered, "{opened:?} at {size:?}: {name:?} at {:?} meets {notice:?}", node.rect());
+                }
+            }
+            press(&mut window, "Close notice");
+        }
+    }
 }

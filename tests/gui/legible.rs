@@ -69,7 +69,7 @@ enum Hidden {
     Nothing,
     /// Lines that scroll into view.
     Lines,
-    /// The beginning of a path in a field.
+    /// The beginning of a path in a field, and lines that scroll into view.
     Typed,
     /// Texts below a list or a sheet, and lines of it.
     Below,
@@ -94,10 +94,10 @@ fn faults(window: &Window, hidden: Hidden) -> Vec<String> {
         let scrolls = clip.height() > 100.0 || clip.left() > 100.0;
         let mut visible = clip.intersect(whole).expand(SLACK_PT);
         match hidden {
-            Hidden::Lines | Hidden::Below if scrolls => {
+            Hidden::Typed if words.contains('/') => (visible.min.x, visible.max.x) = (f32::NEG_INFINITY, f32::INFINITY),
+            Hidden::Lines | Hidden::Below | Hidden::Typed if scrolls => {
                 (visible.min.y, visible.max.y) = (f32::NEG_INFINITY, f32::INFINITY)
             }
-            Hidden::Typed if words.contains('/') => (visible.min.x, visible.max.x) = (f32::NEG_INFINITY, f32::INFINITY),
             _ => {}
         }
         if !visible.contains_rect(*letters) {
@@ -139,6 +139,41 @@ impl Walk {
         self.found.extend(faults(&self.window, hidden).into_iter().map(|fault| format!("{page}: {fault}")));
     }
 
+    /// Chooses each kind of file in the open save sheet, and lets one file be written while another one waits.
+    fn look_at_kinds_of_files(&mut self) {
+        let directory = tempfile::tempdir().expect("a temporary directory");
+        let is_english = session(&self.window).language() == Language::English;
+        let (kinds, [large, cancel, save, path]) = if is_english {
+            (
+                ["owners", "ring", "timeline", "animation", "run", "table", "any size"],
+                ["any size", "Cancel", "Save", "Path of the file"],
+            )
+        } else {
+            (
+                ["donas", "anel", "linha do tempo", "filme", "execução", "tabela", "ampliada"],
+                ["ampliada", "Cancelar", "Salvar", "Caminho do arquivo"],
+            )
+        };
+        for kind in kinds {
+            press(&mut self.window, kind);
+            self.look(kind, Hidden::Typed);
+        }
+        press(&mut self.window, "4K");
+        self.look("4K", Hidden::Typed);
+        for name in ["first.png", "second.png"] {
+            // The chosen kind gives the focus to the path.
+            press(&mut self.window, large);
+            type_path(&mut self.window, path, &directory.path().join(name));
+            press(&mut self.window, save);
+        }
+        self.until("progress", |window| window.query_by_label(cancel).is_some());
+        self.look("the queue", Hidden::Typed);
+        press(&mut self.window, &format!("{cancel} second.png"));
+        press(&mut self.window, cancel);
+        // No machine is pointed at.
+        self.window.hover_at(egui::Pos2::ZERO);
+    }
+
     fn until(&mut self, what: &str, condition: impl Fn(&Window) -> bool) {
         until(&mut self.window, what, condition);
     }
@@ -161,6 +196,9 @@ fn assert_pages_legible(size: [f32; 2], in_projector_mode: bool) {
         ] {
             key(&mut walk.window, open);
             walk.look(page, hidden);
+            if open == Key::S {
+                walk.look_at_kinds_of_files();
+            }
             match open {
                 Key::E | Key::T => key(&mut walk.window, open),
                 _ => escape(&mut walk.window),
@@ -185,10 +223,7 @@ fn assert_pages_legible(size: [f32; 2], in_projector_mode: bool) {
         walk.window.get_by_label(if english { "Full speed" } else { "Total" }).click_accesskit();
         walk.window.run_steps(3);
         key(&mut walk.window, Key::E);
-        // The notice of the change covers other texts for a while.
-        walk.until("the end without a notice", |window| {
-            session(window).stage().phase == Phase::Finished && notice(window).is_empty()
-        });
+        walk.until("the end", |window| session(window).stage().phase == Phase::Finished);
         walk.look("the end", Hidden::Nothing);
         key(&mut walk.window, Key::T);
         walk.look("the end's timeline", Hidden::Nothing);

@@ -16,6 +16,7 @@ mod portuguese;
 mod quitting;
 mod remembering;
 mod run;
+mod save_sheet;
 mod saving;
 mod setup;
 mod sharing;

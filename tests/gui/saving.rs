@@ -4,23 +4,22 @@ use std::path::{Path, PathBuf};
 
 use anel::runlog::RunLog;
 use egui::Key;
-use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
 
-const FIELD: &str = "Path of the file";
+pub const FIELD: &str = "Path of the file";
 
 /// Chooses the kind of file.
-fn choose_kind(window: &mut Window, kind: &str) {
+pub fn choose_kind(window: &mut Window, kind: &str) {
     press(window, kind);
 }
 
-fn typed(window: &Window) -> PathBuf {
+pub fn typed(window: &Window) -> PathBuf {
     window.get_by_label(FIELD).value().unwrap_or_default().into()
 }
 
-fn file_name(path: &Path) -> String {
+pub fn file_name(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
@@ -38,7 +37,7 @@ fn save_writes_the_render_and_names_the_file() {
     assert_eq!(picture.dimensions(), (640, 480));
     let black = picture.pixels().filter(|pixel| pixel.0 == [0; 3]).count();
     assert!(black > 1000 && black < 640 * 480 - 1000, "{black} black pixels");
-    // The row stays open for another file.
+    // The sheet stays open for another file.
     assert!(window.query_by_label(FIELD).is_some());
 }
 
@@ -190,101 +189,6 @@ fn drawings_and_records_are_written_in_the_background() {
 }
 
 #[test]
-fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
-    let directory = tempfile::tempdir().expect("a temporary directory");
-    let mut window = open(SIZE);
-    until(&mut window, "traced atoms", |window| done(window) > 20);
-    let save = |window: &mut Window, name: &str| {
-        press(window, "Save…");
-        choose_kind(window, "any size");
-        let path = directory.path().join(name);
-        type_path(window, FIELD, &path);
-        path
-    };
-    let path = save(&mut window, "small.png");
-    type_number(&mut window, "Pixels across", "200");
-    type_number(&mut window, "Pixels down", "50");
-    press(&mut window, "Save");
-    until(&mut window, "notice", |window| notice(window).starts_with("Saved to"));
-    assert_eq!(image::image_dimensions(&path).expect("a PNG"), (200, 50));
-    window.get_by_label_contains("The shape differs from the picture's");
-    escape(&mut window);
-    let path = save(&mut window, "huge.png");
-    press(&mut window, "4K");
-    assert!(window.query_by_label_contains("The shape differs from the picture's").is_none());
-    assert_eq!(window.get_by_role_and_label(Role::SpinButton, "Pixels across").value().as_deref(), Some("2880"));
-    type_number(&mut window, "Samples a pixel", "16");
-    press(&mut window, "Save");
-    until(&mut window, "progress", |window| window.query_by_label("Cancel").is_some());
-    press(&mut window, "Cancel");
-    assert!(notice(&window).starts_with("Cancelled"), "{}", notice(&window));
-    std::thread::sleep(std::time::Duration::from_millis(300));
-    window.run_steps(3);
-    assert!(!path.exists() && notice(&window).starts_with("Cancelled"));
-}
-
-/// Replaces the path in its field, which need not have the focus.
-fn retype_path(window: &mut Window, path: &Path) {
-    window.get_by_label(FIELD).click();
-    window.run_steps(2);
-    type_path(window, FIELD, path);
-}
-
-#[test]
-fn second_export_waits_for_the_first() {
-    let directory = tempfile::tempdir().expect("a temporary directory");
-    let mut window = open(SIZE);
-    until(&mut window, "traced atoms", |window| done(window) > 20);
-    press(&mut window, "Save…");
-    choose_kind(&mut window, "any size");
-    press(&mut window, "4K");
-    type_number(&mut window, "Samples a pixel", "16");
-    let huge = directory.path().join("huge.png");
-    retype_path(&mut window, &huge);
-    press(&mut window, "Save");
-    choose_kind(&mut window, "timeline");
-    let timeline = directory.path().join("timeline.svg");
-    retype_path(&mut window, &timeline);
-    press(&mut window, "Save");
-    until(&mut window, "progress", |window| window.query_by_label_contains("then 1 more").is_some());
-    let waiting: Vec<String> = session(&window).files_in_progress().into_iter().map(|(name, _)| name).collect();
-    assert_eq!(waiting, ["huge.png", "timeline.svg"]);
-    press(&mut window, "Cancel");
-    until(&mut window, "notice", |window| notice(window).contains("timeline.svg"));
-    assert!(timeline.is_file() && !huge.exists());
-}
-
-#[test]
-fn region_is_saved_without_its_background() {
-    const REGION: &str = "Region: column, row, width, height; empty for the whole picture";
-    let directory = tempfile::tempdir().expect("a temporary directory");
-    let mut window = open(SIZE);
-    until(&mut window, "traced atoms", |window| done(window) > 20);
-    press(&mut window, "Save…");
-    choose_kind(&mut window, "any size");
-    press(&mut window, "Own size");
-    press(&mut window, "Transparent");
-    let type_region = |window: &mut Window, region: &str| {
-        window.get_by_label(REGION).click();
-        window.run_steps(2);
-        type_path(window, REGION, region.as_ref());
-        window.get_by_label(FIELD).click();
-        window.run_steps(2);
-    };
-    type_region(&mut window, "600,0,64,48");
-    assert_eq!(file_name(&typed(&window)), "ten-objects-640x480-region-transparent.png");
-    let path = directory.path().join("part.png");
-    type_path(&mut window, FIELD, &path);
-    press(&mut window, "Save");
-    window.get_by_label_contains("not inside the picture of 640x480");
-    type_region(&mut window, "100,60,64,48");
-    press(&mut window, "Save");
-    until(&mut window, "notice", |window| notice(window).starts_with("Saved to"));
-    let part = image::open(&path).expect("a PNG");
-    assert_eq!((part.width(), part.height(), part.color()), (64, 48, image::ColorType::Rgba8));
-}
-
-#[test]
 fn first_typed_letters_replace_the_file_name() {
     let mut window = open(SIZE);
     key(&mut window, Key::S);
@@ -366,7 +270,7 @@ fn name_of_another_format_is_refused() {
 }
 
 #[test]
-fn no_letter_is_a_shortcut_while_the_save_row_is_open() {
+fn no_letter_is_a_shortcut_while_the_save_sheet_is_open() {
     let mut window = open(SIZE);
     until(&mut window, "traced atoms", |window| done(window) > 20);
     key(&mut window, Key::S);
@@ -400,7 +304,7 @@ fn file_is_replaced_only_after_a_second_press() {
     window.get_by_label("there.png exists. Press Save again to replace it");
     // After a change of the path the question comes again.
     window.event(egui::Event::Text("x".into()));
-    window.step();
+    window.run_steps(2);
     assert!(window.query_by_label_contains("exists").is_none());
     key(&mut window, Key::Backspace);
     press(&mut window, "Save");

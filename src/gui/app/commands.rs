@@ -70,8 +70,8 @@ impl App {
                     "A imagem foi copiada para a área de transferência"
                 ));
             }
-            UserCommand::Save => self.save_bar.toggle(session),
-            UserCommand::SaveRun => self.save_bar.open_for_run(session),
+            UserCommand::Save => self.save_sheet.toggle(session),
+            UserCommand::SaveRun => self.save_sheet.open_for_run(session),
             UserCommand::Scenes => {
                 self.accuracy.close(session);
                 self.compare.close(session);
@@ -160,7 +160,7 @@ impl App {
         if projector {
             // They can be opened again in presentation mode.
             self.setup.open = false;
-            self.save_bar.close();
+            self.save_sheet.close();
         }
         Look::set_strong(ctx, projector);
         let zoom = ctx.zoom_factor();

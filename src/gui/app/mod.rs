@@ -7,12 +7,13 @@ mod notices;
 mod open_stack;
 mod quitting;
 mod repaint_schedule;
+mod saving;
 mod stored_path;
 
 use std::time::Duration;
 
 use eframe::Storage;
-use egui::{Align, Context, Frame, Layout, Margin, Panel, Rect, Ui, UiBuilder};
+use egui::{Align, Context, Frame, Layout, Margin, Panel, Ui, UiBuilder};
 use serde::{Deserialize, Serialize};
 
 use super::input::keys;
@@ -24,7 +25,7 @@ use super::pages::gallery::Gallery;
 use super::pages::help;
 use super::pages::learn::Learn;
 use super::panels::picture::PicturePanel;
-use super::panels::save_bar::{SaveBar, SaveSubject};
+use super::panels::save_sheet::{FilmOptions, SaveSheet};
 use super::panels::setup::{self, SetupPanel};
 use super::panels::time::{self, TimePanel};
 use super::panels::timeline::{self, TimelinePanel};
@@ -49,7 +50,7 @@ pub struct App {
     session: Session,
     picture: PicturePanel,
     time: TimePanel,
-    save_bar: SaveBar,
+    save_sheet: SaveSheet,
     setup: SetupPanel,
     gallery: Gallery,
     accuracy: Accuracy,
@@ -66,8 +67,6 @@ pub struct App {
     /// Details of the selected subject.
     selected: Option<Details>,
     highlight: Highlight,
-    /// Rectangle of the narration or of the lesson in this frame, if one is shown.
-    narration_rect: Option<Rect>,
     /// `Session::runs_begun` at the last frame.
     runs_begun: usize,
     /// Presentation mode: large text, strong colours, no controls.
@@ -92,6 +91,7 @@ struct StoredState {
     split: Option<f32>,
     language: Option<Language>,
     projector: bool,
+    film: FilmOptions,
 }
 
 /// Key of [`StoredState`] in eframe's storage.
@@ -122,7 +122,7 @@ impl App {
             session,
             picture,
             time: TimePanel::default(),
-            save_bar: SaveBar::default(),
+            save_sheet: SaveSheet::new(stored.film),
             setup: SetupPanel::new(stored.is_setup_open),
             gallery: Gallery::default(),
             accuracy: Accuracy::default(),
@@ -136,7 +136,6 @@ impl App {
             hovered: None,
             selected: None,
             highlight: Highlight::default(),
-            narration_rect: None,
             runs_begun: 0,
             projector: stored.projector,
             quitting: Quitting::default(),
@@ -197,13 +196,27 @@ impl App {
         }
     }
 
-    /// Shows the bars and, below them, the open page or the panels of the run.
+    /// Shows the top bar and, below it, the open page or the panels of the run, and the save sheet if it is open.
     fn panels(&mut self, ui: &mut Ui) {
-        let language = self.session.language();
         self.session.stage_mut().hides_later = self.learn.is_on();
-        self.narration_rect = None;
-        self.bars(ui);
+        self.bar(ui);
+        let area = ui.available_rect_before_wrap();
+        if !self.save_sheet.is_open() {
+            self.page_or_run(ui, 0.0);
+        } else if self.has_room_for_sheet(area) {
+            let width = self.sheet_beside(ui);
+            self.page_or_run(ui, width);
+        } else {
+            self.page_or_run(ui, 0.0);
+            self.sheet_over(ui.ctx(), area);
+        }
+    }
+
+    /// Shows the open page, or the panels of the run beside a save sheet of this width.
+    fn page_or_run(&mut self, ui: &mut Ui, sheet: f32) {
+        let language = self.session.language();
         if self.shows_page() {
+            self.notice_panel(ui);
             let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
             ui.scope_builder(UiBuilder::new().max_rect(area), |ui| {
                 if self.gallery.is_open() {
@@ -224,20 +237,25 @@ impl App {
         }
         self.update_highlight();
         let lesson = self.learn.height(ui, ui.available_width() - 4.0 * GRID, language);
-        let height = lesson.unwrap_or_else(|| narration::height(ui));
+        let notice = self.notice_height(ui);
+        let words = |notice: f32| lesson.unwrap_or_else(|| narration::height(ui, notice));
+        let (height, usual) = (words(notice), words(0.0));
         // The audience of a projector only looks; its presenter uses keys.
         if !self.projector || self.shows_timeline && !self.learn.is_on() {
-            self.machines(ui, ui.available_height() - height - time::HEIGHT_PT);
+            self.machines(ui, ui.available_height() - usual - time::HEIGHT_PT, sheet);
         }
-        let narration = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
-        let narration = narration.show(ui, |ui| {
+        let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
+        words.show(ui, |ui| {
             if lesson.is_some() {
                 self.learn.show_step(ui, &mut self.session);
             } else {
-                narration::show(ui, &self.session, self.selected.as_ref());
+                let place = narration::show(ui, &self.session, self.selected.as_ref(), notice);
+                self.notices(ui, place);
             }
         });
-        self.narration_rect = Some(narration.response.rect);
+        if lesson.is_some() {
+            self.notice_panel(ui);
+        }
         // A low window has no room for the time bar beside a lesson, and a lesson has its own buttons.
         let is_tight = lesson.is_some() && ui.ctx().content_rect().height() < 560.0;
         if !(self.projector || is_tight) || self.time.is_finding() {
@@ -247,11 +265,11 @@ impl App {
                 self.handle_command(command, ui.ctx());
             }
         }
-        self.main_area(ui);
+        self.main_area(ui, sheet);
     }
 
-    /// Shows the top bar and, if it is open, the save bar.
-    fn bars(&mut self, ui: &mut Ui) {
+    /// Shows the top bar.
+    fn bar(&mut self, ui: &mut Ui) {
         if !self.projector {
             let open = top_bar::OpenPages {
                 scenes: self.gallery.is_open(),
@@ -259,34 +277,26 @@ impl App {
                 compare: self.compare.is_open(),
                 learn: self.learn.is_open() || self.learn.is_on(),
                 setup: self.setup.open,
-                save: self.save_bar.is_open(),
+                save: self.save_sheet.is_open(),
             };
             let bar = |ui: &mut Ui| top_bar::show(ui, &self.session, open);
             if let Some(command) = Panel::top("top bar").frame(panel(8, 8)).show(ui, bar).inner {
                 self.handle_command(command, ui.ctx());
             }
         }
-        if self.save_bar.is_open() {
-            let subject = match self.compare.is_open() {
-                true => SaveSubject::Comparison(self.compare.comparison()),
-                false => SaveSubject::Run(self.picture.shown()),
-            };
-            let bar = |ui: &mut Ui| self.save_bar.show(ui, &mut self.session, &subject);
-            if let Some(command) = Panel::top("save bar").frame(panel(8, 8)).show(ui, bar).inner {
-                self.handle_command(command, ui.ctx());
-            }
-        }
     }
 
-    /// Shows the table of machines, or the timeline. `room` is the height for it and for picture and ring.
-    fn machines(&mut self, ui: &mut Ui, room: f32) {
+    /// Shows the table of machines, or the timeline. `room` is the height for it and for picture and ring, `sheet` the
+    /// width of the save sheet beside them.
+    fn machines(&mut self, ui: &mut Ui, room: f32, sheet: f32) {
         /// Margins of all panels.
         const MARGINS_PT: f32 = 58.0;
         /// Margins of this panel.
         const OWN_MARGINS_PT: f32 = 14.0;
         let (room, whole) = (room - MARGINS_PT, ui.ctx().content_rect().height());
         let (nodes, has_lesson) = (self.session.header().speeds.len(), self.learn.is_on());
-        let table = |nodes: usize| nodes::height(ui, nodes, room - 0.5 * whole);
+        // The save sheet does not change the height, so that the picture stays where it is.
+        let table = |nodes: usize| nodes::height(ui, ui.available_width() + sheet, nodes, room - 0.5 * whole);
         let usual = match self.learn.machines() {
             // All steps of a lesson have the same height, so that the picture keeps its place.
             Some(most) => timeline::height(ui, most, true).max(table(most)),
@@ -342,23 +352,25 @@ impl App {
 
     /// Shows the picture and, beside it, the ring or the inspector. On a projector the timeline of a lesson takes the
     /// place of the ring: below the picture there is no room for it.
-    fn main_area(&mut self, ui: &mut Ui) {
+    fn main_area(&mut self, ui: &mut Ui, sheet: f32) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         // In less height both would be cut off.
         if area.height() < 7.0 * GRID {
             return;
         }
         let size = self.session.header().size;
-        let (left, right) = split_main_area(area, size.width() as f32 / size.height() as f32);
-        let within = |rect: Rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
+        let (left, right) = split_main_area(area, size.width() as f32 / size.height() as f32, sheet);
+        let within = |rect| UiBuilder::new().max_rect(rect).layout(Layout::top_down(Align::Min));
         ui.scope_builder(within(left), |ui| {
             self.picture.show(ui, &mut self.session, &mut self.selection, &self.highlight)
         });
-        ui.scope_builder(within(right), |ui| match self.session.inspected_pixel() {
-            Some(pixel) => inspector::show(ui, pixel, &mut self.session),
-            None if self.projector && self.learn.is_on() && self.shows_timeline => self.timeline(ui),
-            None => ring::show(ui, &mut self.session, &mut self.selection, &self.highlight),
-        });
+        if let Some(right) = right {
+            ui.scope_builder(within(right), |ui| match self.session.inspected_pixel() {
+                Some(pixel) => inspector::show(ui, pixel, &mut self.session),
+                None if self.projector && self.learn.is_on() && self.shows_timeline => self.timeline(ui),
+                None => ring::show(ui, &mut self.session, &mut self.selection, &self.highlight),
+            });
+        }
     }
 }
 
@@ -368,13 +380,14 @@ impl eframe::App for App {
         self.take_dropped(ctx);
         for done in self.session.tick(ctx.input(|input| input.time)) {
             match done {
-                JobResult::Chosen(Purpose::Save, chosen) => self.save_bar.take_chosen(chosen, language),
+                JobResult::Chosen(Purpose::Save, chosen) => self.save_sheet.take_chosen(chosen, language),
                 JobResult::Chosen(Purpose::Learn, chosen) => self.learn.take_chosen(chosen, &mut self.session),
                 JobResult::Chosen(Purpose::Open, chosen) => self.gallery.take_chosen(chosen, &mut self.session),
                 JobResult::Found(job, finding) => self.accuracy.take(job, finding, &mut self.session),
                 JobResult::LessonOpened(lesson) => self.learn.open(lesson, &mut self.session),
                 JobResult::LessonPrepared(job, prepared) => self.learn.take(job, prepared, &mut self.session),
                 JobResult::Compared(job, result) => self.compare.take(job, result),
+                JobResult::ExportPreviewed(job, made) => self.save_sheet.take_preview(ctx, job, made),
                 JobResult::Thumbnail(scene, made) => self.gallery.take_thumbnail(ctx, &scene, made),
                 _ => {}
             }
@@ -395,7 +408,7 @@ impl eframe::App for App {
         zoom::follow_window(ui.ctx(), self.projector);
         zoom::keys(ui.ctx());
         // While a path field is open, letters belong to it, even if it does not have the focus.
-        let is_typing = ui.ctx().text_edit_focused() || self.save_bar.is_open() || self.gallery.is_open();
+        let is_typing = ui.ctx().text_edit_focused() || self.save_sheet.is_open() || self.gallery.is_open();
         for command in keys::pressed(ui.ctx(), is_typing) {
             self.handle_command(command, ui.ctx());
         }
@@ -404,7 +417,6 @@ impl eframe::App for App {
         if let Some(refused) = RefusedNumber::take(ui.ctx()) {
             self.session.trouble(refused.sentence(language));
         }
-        self.notices(ui.ctx());
         self.ask_to_quit(ui.ctx());
         if self.help && help::show(ui.ctx(), language) {
             self.help = false;
@@ -430,6 +442,7 @@ impl eframe::App for App {
             split: self.split.share,
             language: Some(self.session.language()),
             projector: self.projector,
+            film: self.save_sheet.film(),
         };
         eframe::set_value(storage, STORAGE_KEY, &stored);
     }

@@ -1,49 +1,39 @@
-//! The notice that floats over the panels, and its position.
+//! The place of the messages: nothing else is there.
 
-use egui::{Context, Pos2, vec2};
+use egui::{Panel, Rect, Ui};
 
-use super::App;
+use super::{App, panel};
 use crate::gui::panels::notice::{self, NoticeAction};
-use crate::gui::session::NoticeKind;
 use crate::gui::widgets::theme::GRID;
 
 impl App {
-    /// Shows the progress of an export and of loading, and above them the notice to be read now. A note that something
-    /// was done waits for the run that is being loaded.
-    pub(super) fn notices(&mut self, ctx: &Context) {
-        let language = self.session.language();
-        let mut at = self.notice_corner(ctx);
-        if let Some(progress) = self.session.export_progress().filter(|progress| progress.elapsed_s > 0.4) {
-            let (top, is_cancelled) = notice::export_progress(ctx, at, progress, language);
-            if is_cancelled {
-                self.session.cancel_export();
-            }
-            at.y = top - GRID / 2.0;
-        }
-        let loading = self.session.loading().filter(|loading| loading.traced.elapsed_s > 0.4);
-        let is_loading = loading.is_some();
-        if let Some(loading) = loading {
-            let (top, is_cancelled) = notice::loading(ctx, at, &loading, language);
-            if is_cancelled {
-                self.session.cancel_loading();
-            }
-            at.y = top - GRID / 2.0;
-        }
-        if let Some(notice) =
-            self.session.notice().filter(|notice| !is_loading || notice.kind != NoticeKind::Note).cloned()
-        {
-            match notice::show(&notice, self.session.notices_waiting(), ctx, at, language) {
-                Some(NoticeAction::Close) => self.session.close_notice(),
-                Some(NoticeAction::Reload) => self.session.reload(),
-                None => {}
-            }
+    /// Returns the height that the messages need in a panel below others; 0 if there is none.
+    pub(super) fn notice_height(&self, ui: &Ui) -> f32 {
+        notice::height(ui, ui.available_width() - 4.0 * GRID, &self.session, self.lists_exports())
+    }
+
+    /// Shows the messages, if there are any, in a panel below the others.
+    pub(super) fn notice_panel(&mut self, ui: &mut Ui) {
+        let height = self.notice_height(ui);
+        if height > 0.0 {
+            let place = Panel::bottom("notice").frame(panel(6, 6)).exact_size(height + 12.0);
+            place.show(ui, |ui| self.notices(ui, ui.available_rect_before_wrap()));
         }
     }
 
-    /// Returns the lower right corner of a notice: that of the narration, whose lines are short, so the notice covers
-    /// neither picture nor ring nor controls. On a page it is the corner of the window.
-    fn notice_corner(&self, ctx: &Context) -> Pos2 {
-        let rect = self.narration_rect.unwrap_or(ctx.content_rect());
-        rect.right_bottom() - vec2(GRID, GRID / 2.0)
+    /// Shows the messages in this area.
+    pub(super) fn notices(&mut self, ui: &mut Ui, area: Rect) {
+        match notice::show(ui, area, &self.session, self.lists_exports()) {
+            Some(NoticeAction::Close) => self.session.close_notice(),
+            Some(NoticeAction::Reload) => self.session.reload(),
+            Some(NoticeAction::CancelExport(job)) => self.session.cancel_export(job),
+            Some(NoticeAction::CancelLoading) => self.session.cancel_loading(),
+            None => {}
+        }
+    }
+
+    /// Whether the progress of saving is one of the messages; the save sheet shows it otherwise.
+    fn lists_exports(&self) -> bool {
+        !self.save_sheet.is_open()
     }
 }

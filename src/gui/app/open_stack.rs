@@ -113,7 +113,7 @@ impl App {
             Closable::Lessons => self.learn.is_open(),
             Closable::Accuracy => self.accuracy.is_open(),
             Closable::Compare => self.compare.is_open(),
-            Closable::Save => self.save_bar.is_open(),
+            Closable::Save => self.save_sheet.is_open(),
             // A note goes by itself.
             Closable::Trouble => self.session.notice().is_some_and(|notice| notice.kind != NoticeKind::Note),
             Closable::Help => self.help,
@@ -133,7 +133,7 @@ impl App {
             Closable::Lessons => self.learn.close(),
             Closable::Accuracy => self.accuracy.close(&mut self.session),
             Closable::Compare => self.compare.close(&mut self.session),
-            Closable::Save => self.save_bar.close(),
+            Closable::Save => self.save_sheet.close(),
             Closable::Trouble => self.session.close_notice(),
             Closable::Help => self.help = false,
         }

@@ -4,11 +4,11 @@ use egui::{Context, Id, Label, Modal, ProgressBar, RichText, ViewportCommand};
 
 use super::App;
 use crate::cancel::CancelToken;
-use crate::gui::session::NoticeKind;
+use crate::gui::session::{ExportProgress, NoticeKind, Session};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, popup_frame};
 use crate::interrupt::EndsEarly;
-use crate::language::{Language, say, word};
+use crate::language::{say, word};
 use crate::view::fraction;
 
 /// Whether the window closes.
@@ -50,7 +50,7 @@ impl App {
 
     /// Closes the window when that is asked for and no file is being written.
     pub(super) fn close_when_written(&mut self, ctx: &Context) {
-        let is_writing = !self.session.files_in_progress().is_empty();
+        let is_writing = self.session.exports().next().is_some();
         if self.quitting.signal.as_ref().is_some_and(|(token, _)| token.is_cancelled()) {
             self.close_now(ctx);
         } else if ctx.input(|input| input.viewport().close_requested()) && is_writing {
@@ -73,7 +73,7 @@ impl App {
         if !self.is_waiting_to_quit() {
             return;
         }
-        match question(ctx, &self.session.files_in_progress(), self.session.language()) {
+        match question(ctx, &self.session) {
             Some(QuitAnswer::QuitNow) => self.close_now(ctx),
             Some(QuitAnswer::Stay) => self.stay_open(),
             None => {}
@@ -98,15 +98,16 @@ impl App {
     }
 }
 
-fn question(ctx: &Context, files: &[(String, Option<f64>)], language: Language) -> Option<QuitAnswer> {
+fn question(ctx: &Context, session: &Session) -> Option<QuitAnswer> {
+    let language = session.language();
     let look = Look::of(ctx);
     let modal = Modal::new(Id::unique("quit")).frame(popup_frame(ctx).inner_margin(2.0 * GRID));
     let shown = modal.show(ctx, |ui| {
         ui.set_width(52.0 * GRID);
-        for (name, share) in files {
+        for ExportProgress { name, done, .. } in session.exports() {
             let text = say!(language, "{name} is still being written", "{name} ainda está sendo gravado");
             ui.add(Label::new(RichText::new(text).font(theme::strong(theme::BODY)).color(look.text)).wrap());
-            if let &Some(share) = share {
+            if let Some((_, share)) = done {
                 ui.horizontal(|ui| {
                     ui.visuals_mut().extreme_bg_color = look.hairline;
                     let bar = ProgressBar::new(share as f32).desired_width(40.0 * GRID).desired_height(GRID);

@@ -31,9 +31,9 @@ pub enum UserCommand {
     Timeline,
     /// Zooms the timeline in (`true`) or out.
     Zoom(bool),
-    /// Opens or closes the save bar.
+    /// Opens or closes the save sheet.
     Save,
-    /// Opens the save bar for the run.
+    /// Opens the save sheet for the run.
     SaveRun,
     /// Copies the picture as it is shown to the clipboard.
     Copy,

@@ -7,7 +7,7 @@ pub mod notice;
 pub mod picture;
 mod picture_captions;
 pub mod ring;
-pub mod save_bar;
+pub mod save_sheet;
 pub mod setup;
 pub mod time;
 pub mod timeline;

@@ -19,24 +19,29 @@ const SENTENCE_HEIGHT_PT: f32 = 3.25 * GRID;
 const EVENT_HEIGHT_PT: f32 = 2.25 * GRID;
 const BAR_HEIGHT_PT: f32 = 3.0 * GRID;
 
-/// Returns the height of the panel. It depends on the window only, so it does not change during a run.
-pub fn height(ui: &Ui) -> f32 {
-    SENTENCE_HEIGHT_PT + events_shown(ui) as f32 * EVENT_HEIGHT_PT + 1.5 * GRID + BAR_HEIGHT_PT
+/// Returns the height of the panel. Without a notice it depends on the window only, so it does not change during a run.
+/// A notice of this height takes the place of earlier events.
+pub fn height(ui: &Ui, notice: f32) -> f32 {
+    let events = events_shown(ui) as f32 * EVENT_HEIGHT_PT;
+    SENTENCE_HEIGHT_PT + events.max(notice) + 1.5 * GRID + BAR_HEIGHT_PT
 }
 
 /// Shows the details of the selected subject, else the result of a finished run, else sentences; and below the bar.
-pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>) {
+/// Returns the place of a notice of this height, between the sentences and the bar.
+pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f32) -> Rect {
     let language = session.language();
     let look = Look::of(ui.ctx());
-    let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui)), Sense::hover());
+    let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui, notice)), Sense::hover());
     let (above, below) = whole.split_top_bottom_at_y(whole.bottom() - BAR_HEIGHT_PT);
-    let upper = &mut ui.new_child(UiBuilder::new().max_rect(above.with_max_y(above.bottom() - GRID)));
+    let (above, place) = above.split_top_bottom_at_y(above.bottom() - GRID - notice);
+    let upper = &mut ui.new_child(UiBuilder::new().max_rect(above));
+    let lines = ((above.height() - SENTENCE_HEIGHT_PT).max(0.0) / EVENT_HEIGHT_PT) as usize;
     upper.spacing_mut().item_spacing.y = 0.0;
-    upper.shrink_clip_rect(above);
+    upper.shrink_clip_rect(above.with_max_y(above.bottom() + if notice > 0.0 { 0.0 } else { GRID }));
     match details {
         Some(details) => {
             // Where there is room for both, the sentence of the moment stays.
-            if events_shown(upper) > 0 {
+            if lines > 0 {
                 sentence(upper, session, look);
             }
             selected(upper, session, details, look);
@@ -47,12 +52,13 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>) {
             let stage = session.stage();
             let (narrator, now) = (stage.narrator(), session.now());
             let told = usize::from(narrator.event_time(stage.state(), now).is_some());
-            let more = narrator.events_so_far().saturating_sub(told + events_shown(upper));
-            let others = narrator.other_events(stage.state(), now).rev().take(events_shown(upper));
+            let more = narrator.events_so_far().saturating_sub(told + lines);
+            let others = narrator.other_events(stage.state(), now).rev().take(lines);
             events(upper, others, more, stage, look, language);
         }
     }
     bar(ui, below, session, look);
+    place.with_max_y(place.bottom() - GRID)
 }
 
 /// Returns how many earlier events have room below the sentence.

@@ -26,7 +26,7 @@ pub struct OpenPages {
     pub learn: bool,
     /// The settings.
     pub setup: bool,
-    /// The save bar.
+    /// The save sheet.
     pub save: bool,
 }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::settings::Settings;
+use super::export_file::Export;
 use super::job_result::{FileChange, Prepared, Recorded};
 use super::opening::{Opening, unreadable_scene};
 use super::run_source::RunSource;
@@ -76,19 +77,6 @@ impl Session {
         }
     }
 
-    /// Writes the picture, as far as it is traced, in the background. The layer's share is 0 (the render alone) to 1
-    /// (the layer alone).
-    pub fn save_picture(&mut self, path: PathBuf, look: (Layer, f32)) {
-        let language = self.language;
-        self.note_saving(&path);
-        let Stage { frame, colours, .. } = &self.stage;
-        let (frame, state, colours) = (frame.clone(), self.stage.latest().clone(), colours.clone());
-        let name = file_name(&path);
-        let pixels = move || picture_pixels(&frame, &state, &colours, look);
-        let job = self.jobs.save_picture(path, self.stage.frame.size(), pixels, language);
-        self.saving.insert(job, name);
-    }
-
     /// Returns the picture, as far as it is traced, for the clipboard.
     pub fn copied_picture(&self, look: (Layer, f32)) -> egui::ColorImage {
         let Stage { frame, colours, .. } = &self.stage;
@@ -98,7 +86,6 @@ impl Session {
 
     /// Writes the run so far in the background, with a title and a memo.
     pub fn save_run(&mut self, path: PathBuf, title: &str, memo: &str) {
-        self.note_saving(&path);
         let caption = &mut self.stage.log.header.caption;
         (caption.title, caption.memo) = (title.trim().to_owned(), memo.trim().to_owned());
         // The recorded run keeps them when it starts again.
@@ -106,36 +93,7 @@ impl Session {
             Arc::make_mut(&mut recorded.log).header.caption = caption.clone();
         }
         self.remember(path.clone());
-        self.save_log(path);
-    }
-
-    /// Returns the names of the files that are being written, or wait for that. For the export in progress it also
-    /// returns the share that is done, 0 to 1.
-    pub fn files_in_progress(&self) -> Vec<(String, Option<f64>)> {
-        let export = self.export_progress().map(|progress| (progress.name.to_owned(), Some(progress.share)));
-        let others = self.exports_waiting().chain(self.saving.values().cloned()).map(|name| (name, None));
-        export.into_iter().chain(others).collect()
-    }
-
-    /// Takes the result of saving a file.
-    pub(super) fn take_saved(&mut self, job: u64, result: Result<String, String>) {
-        self.saving.remove(&job);
-        match result {
-            Ok(message) => self.note(message),
-            Err(why) => self.trouble(why),
-        }
-    }
-
-    fn save_log(&mut self, path: PathBuf) {
-        let name = file_name(&path);
-        let job = self.jobs.save_run(path, self.stage.log.clone(), self.language);
-        self.saving.insert(job, name);
-    }
-
-    fn note_saving(&mut self, path: &Path) {
-        let language = self.language;
-        let path = path.display();
-        self.note(say!(language, "Saving {path} …", "Salvando {path} …"));
+        self.export(path, Export::Run);
     }
 
     /// Writes the run's records to the file of `--log`, if given, before the window closes. Reports a failure on
@@ -181,7 +139,7 @@ impl Session {
     /// Writes the records in the background to the file of `--log`, if given.
     pub(super) fn write_log(&mut self) {
         if let (Some(path), RunSource::Live(_)) = (&self.log_path, &self.stage.source) {
-            self.save_log(path.clone());
+            self.export(path.clone(), Export::Run);
         }
     }
 

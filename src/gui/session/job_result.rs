@@ -19,14 +19,14 @@ use crate::view::{ComparedRun, Inspected, RunView};
 pub enum JobResult {
     /// A scene, run or lesson is read and compiled, or a sentence says why not.
     Ready(u64, Result<Ready, String>),
-    /// A file is written: a sentence with its path, or the reason why not.
-    Saved(u64, Result<String, String>),
     /// A job without a number could not begin, for this reason.
     Failed(String),
     /// Share of an export that is done, 0 to 1.
     Progress(u64, f64),
     /// An export has ended: a sentence with the file's path, or the reason why it failed.
     Exported(u64, Result<String, String>),
+    /// The preview of a file, `None` if it is no picture, or the reason why there is none.
+    ExportPreviewed(u64, Result<Option<ExportPreview>, String>),
     /// The file dialog has closed; `None` if it was cancelled or is not available.
     Chosen(Purpose, Option<PathBuf>),
     /// The thumbnail of a scene, by the scene's name or path, or the reason why there is none.
@@ -131,6 +131,16 @@ pub struct Thumbnail {
     pub size: Size,
     /// Its pixels, three bytes each.
     pub rgb: Vec<u8>,
+}
+
+/// What a file will show, with fewer pixels.
+pub struct ExportPreview {
+    /// Its size.
+    pub size: Size,
+    /// Its pixels, three bytes each, in scan order.
+    pub rgb: Vec<u8>,
+    /// Width and height of the file: in pixels, or in the units of a drawing.
+    pub whole: [u32; 2],
 }
 
 /// Speedup and efficiency of the strategies over the number of machines.

@@ -11,9 +11,6 @@ use super::job_result::{FileChange, JobResult, Purpose};
 use super::preview::thumbnail;
 use crate::cancel::CancelOnDrop;
 use crate::language::{Language, say, word};
-use crate::output::OutputError;
-use crate::picture::{Size, write_png};
-use crate::runlog::RunLog;
 use crate::scene::Opened;
 use crate::view::Inspected;
 
@@ -39,36 +36,6 @@ impl Jobs {
     /// Returns the results since the last call.
     pub fn results(&self) -> Vec<JobResult> {
         self.receiver.try_iter().collect()
-    }
-
-    /// Writes a PNG of these pixels (three bytes each). Returns the number of the job.
-    pub fn save_picture(
-        &mut self,
-        path: PathBuf,
-        size: Size,
-        pixels: impl FnOnce() -> Vec<u8> + Send + 'static,
-        language: Language,
-    ) -> u64 {
-        self.save(path, move |path| write_png(path, size, &pixels()), language)
-    }
-
-    /// Writes a run file. Returns the number of the job.
-    pub fn save_run(&mut self, path: PathBuf, log: RunLog, language: Language) -> u64 {
-        self.save(path, move |path| log.save(path), language)
-    }
-
-    fn save(
-        &mut self,
-        path: PathBuf,
-        write: impl FnOnce(&Path) -> Result<(), OutputError> + Send + 'static,
-        language: Language,
-    ) -> u64 {
-        let job = self.number();
-        let failed = move |why| JobResult::Saved(job, Err(why));
-        self.start_many(language, "save", failed, move |send| {
-            send(JobResult::Saved(job, save_message(&path, write(&path), language)));
-        });
-        job
     }
 
     /// Shows the system's file dialog. If there is none, the result is the same as after cancelling.

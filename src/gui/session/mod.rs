@@ -2,6 +2,8 @@
 //! and clocks: those of runs are behind [`RunSource`], all others in [`jobs`].
 
 mod comparing;
+mod export_file;
+mod export_preview;
 mod exporting;
 mod failing;
 mod files;
@@ -21,7 +23,6 @@ mod teaching;
 mod timing;
 mod tracing;
 
-use std::collections::{BTreeMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -38,13 +39,14 @@ use crate::scene::{Opened, built_in};
 use crate::time::Time;
 
 pub use comparing::ComparisonSubject;
-pub use exporting::{Export, ExportProgress, PictureExport};
-use exporting::{ExportJob, PendingExport};
+pub use export_file::{Export, PictureExport};
+use exporting::ExportJob;
+pub use exporting::ExportProgress;
 use inspecting::Inspecting;
 use job_result::Ready;
 pub use job_result::{
-    CameraPreview, CompareResult, Finding, Growth, GrowthPoint, JobResult, Prepared, PreparedLesson, Purpose, Recorded,
-    Thumbnail,
+    CameraPreview, CompareResult, ExportPreview, Finding, Growth, GrowthPoint, JobResult, Prepared, PreparedLesson,
+    Purpose, Recorded, Thumbnail,
 };
 use jobs::Jobs;
 use loading::Loading;
@@ -84,10 +86,8 @@ pub struct Session {
     /// Number of measurements that have not ended, cancelled ones included.
     measurements: usize,
     notices: Notices,
-    export_job: Option<ExportJob>,
-    exports_waiting: VecDeque<PendingExport>,
-    /// By job: the name of the file that is being saved.
-    saving: BTreeMap<u64, String>,
+    /// Files that are being written, or wait for that.
+    exports: Vec<ExportJob>,
     /// File for the records of each run (`--log`).
     log_path: Option<PathBuf>,
     /// Recently opened files, the latest first.
@@ -127,9 +127,7 @@ impl Session {
             runs_begun: 0,
             measurements: 0,
             notices: Notices::default(),
-            export_job: None,
-            exports_waiting: VecDeque::new(),
-            saving: BTreeMap::new(),
+            exports: Vec::new(),
             log_path,
             recent: Vec::new(),
             ground,
@@ -158,7 +156,7 @@ impl Session {
     }
 
     /// Updates the stage and handles the results of jobs since the last call; `clock` is egui's, in seconds. Returns
-    /// the results that are for the pages and the save bar.
+    /// the results that are for the pages and the save sheet.
     pub fn tick(&mut self, clock: f64) -> Vec<JobResult> {
         self.clock = clock;
         if self.stage.tick(clock) {
@@ -184,7 +182,6 @@ impl Session {
                 }
                 // Another file was opened meanwhile.
                 JobResult::Ready(..) => {}
-                JobResult::Saved(job, result) => self.take_saved(job, result),
                 JobResult::Failed(why) => self.trouble(why),
                 JobResult::Progress(job, share) => self.take_progress(job, share),
                 JobResult::Exported(job, result) => self.take_exported(job, result),
@@ -197,6 +194,7 @@ impl Session {
                 JobResult::CameraPreview(preview) => self.take_camera_preview(preview),
                 result @ (JobResult::Chosen(..)
                 | JobResult::Thumbnail(..)
+                | JobResult::ExportPreviewed(..)
                 | JobResult::Compared(..)
                 | JobResult::LessonOpened(..)
                 | JobResult::LessonPrepared(..)) => others.push(result),

@@ -19,12 +19,12 @@ use crate::view::{
 };
 use row_layout::{RowGrid, RowLayout};
 
-/// Returns the height of the panel for this number of machines, in points: at most `room`, which leaves the ring large,
-/// or a part of the window. Then rows come closer, and at last they scroll.
-pub fn height(ui: &Ui, nodes: usize, room: f32) -> f32 {
+/// Returns the height of the panel for this number of machines in this width, in points: at most `room`, which leaves
+/// the ring large, or a part of the window. Then rows come closer, and at last they scroll.
+pub fn height(ui: &Ui, width: f32, nodes: usize, room: f32) -> f32 {
     let part = if RowGrid::are_many(nodes) { 0.19 } else { 0.24 };
     let most = room.max(part * ui.ctx().content_rect().height()).max(9.0 * GRID);
-    RowGrid::new(nodes, [ui.available_width() - 4.0 * GRID, most]).usual_height().min(most)
+    RowGrid::new(nodes, [width - 4.0 * GRID, most]).usual_height().min(most)
 }
 
 /// Shows all rows, in as many columns as fit. A click on a row selects its machine.

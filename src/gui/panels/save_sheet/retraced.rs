@@ -1,14 +1,17 @@
 //! The picture that is traced again to be saved: its size, its samples, its region, its background.
 
-use egui::{RichText, Ui};
+use egui::{Label, RichText, Ui};
 
-use super::kinds::{MAX_SIDE_PX, four_k, has_same_shape, large};
+use super::kinds::{FOUR_K, MAX_SIDE_PX, has_same_shape, large};
 use crate::gui::session::{PictureExport, Session};
 use crate::gui::widgets::path_input::path_field;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, number_field};
-use crate::language::word;
+use crate::language::{Language, word};
 use crate::picture::{Quality, Region};
+
+/// Width of a field for a side, in points.
+const FIELD_WIDTH_PT: f32 = 8.0 * GRID;
 
 /// The user's choices.
 #[derive(Clone)]
@@ -32,85 +35,69 @@ impl Default for RetracedPicture {
 impl RetracedPicture {
     /// Shows the fields.
     pub fn show(&mut self, ui: &mut Ui, session: &Session) {
-        self.show_size(ui, session);
-        let language = session.language();
-        ui.horizontal(|ui| {
-            let emphasis = if self.transparent { Emphasis::On } else { Emphasis::Quiet };
-            let hint = word!(
-                language,
-                "Leave out the background: the picture is transparent where no solid is",
-                "Sem o fundo: a imagem é transparente onde não há sólido"
-            );
-            let name = word!(language, "Transparent", "Transparente");
-            if button(ui, None, name, true, emphasis).on_hover_text(hint).clicked() {
-                self.transparent = !self.transparent;
-            }
-            ui.label(quiet(ui, word!(language, "only a region:", "só uma região:")));
-            let name = word!(
-                language,
-                "Region: column, row, width, height; empty for the whole picture",
-                "Região: coluna, linha, largura, altura; vazio para a imagem inteira"
-            );
-            path_field(ui, (&mut self.region, "X,Y,W,H"), 20.0 * GRID, name, &mut false);
-        });
-    }
-
-    /// Shows the fields for the size and the samples.
-    fn show_size(&mut self, ui: &mut Ui, session: &Session) {
         let language = session.language();
         let own = own_size(session);
         let mut size = self.size(session);
-        let twice = own.map(|side| 2 * side);
+        ui.horizontal(|ui| self.sizes(ui, own, &mut size, language));
         ui.horizontal(|ui| {
-            for (name, other) in
-                [(word!(language, "Own size", "Seu tamanho"), own), ("× 2", twice), ("4K", four_k(own))]
-            {
-                let emphasis = if size == other { Emphasis::On } else { Emphasis::Quiet };
-                let [width, height] = other;
-                let hint = format!("{width} × {height}");
-                if button(ui, None, name, true, emphasis).on_hover_text(hint).clicked() {
-                    size = other;
-                }
-            }
+            let [across, down] =
+                word!(language, ["Pixels across", "Pixels down"], ["Pixels na horizontal", "Pixels na vertical"]);
             let [width, height] = &mut size;
-            number_field(
-                ui,
-                width,
-                1..=MAX_SIDE_PX,
-                "",
-                9.0 * GRID,
-                (word!(language, "Pixels across", "Pixels na horizontal"), language),
-            );
+            number_field(ui, width, 1..=MAX_SIDE_PX, "", FIELD_WIDTH_PT, (across, language));
             ui.label(quiet(ui, "×"));
-            number_field(
-                ui,
-                height,
-                1..=MAX_SIDE_PX,
-                "",
-                9.0 * GRID,
-                (word!(language, "Pixels down", "Pixels na vertical"), language),
-            );
-            ui.label(quiet(ui, word!(language, "samples a pixel, n × n:", "amostras por pixel, n × n:")));
-            number_field(
-                ui,
-                &mut self.samples,
-                1..=16,
-                "",
-                6.0 * GRID,
-                (word!(language, "Samples a pixel", "Amostras por pixel"), language),
-            );
+            number_field(ui, height, 1..=MAX_SIDE_PX, "", FIELD_WIDTH_PT, (down, language));
+            ui.label(quiet(ui, word!(language, "samples n × n:", "amostras n × n:")));
+            let samples = word!(language, "Samples a pixel", "Amostras por pixel");
+            number_field(ui, &mut self.samples, 1..=16, "", 5.0 * GRID, (samples, language));
         });
         if size != self.size(session) {
             self.size = Some(size);
         }
+        ui.horizontal(|ui| self.extent(ui, language));
         if !has_same_shape(own, size) {
             let words = word!(
                 language,
                 "The shape differs from the picture's: the sides show more or less",
                 "O formato difere do da imagem: os lados mostram mais ou menos"
             );
-            ui.label(quiet(ui, words));
+            let words = RichText::new(words).font(theme::regular(theme::SMALL)).color(Look::of(ui.ctx()).quiet);
+            ui.add(Label::new(words).wrap());
         }
+    }
+
+    /// Shows a button for each usual size.
+    fn sizes(&self, ui: &mut Ui, own: [u32; 2], size: &mut [u32; 2], language: Language) {
+        let usual =
+            [(word!(language, "Own size", "Seu tamanho"), own), ("× 2", own.map(|side| 2 * side)), ("4K", FOUR_K)];
+        for (name, other) in usual {
+            let emphasis = if *size == other { Emphasis::On } else { Emphasis::Quiet };
+            let [width, height] = other;
+            if button(ui, None, name, true, emphasis).on_hover_text(format!("{width} × {height}")).clicked() {
+                *size = other;
+            }
+        }
+    }
+
+    /// Shows the button that leaves out the background, and the field for the region.
+    fn extent(&mut self, ui: &mut Ui, language: Language) {
+        let emphasis = if self.transparent { Emphasis::On } else { Emphasis::Quiet };
+        let hint = word!(
+            language,
+            "Leave out the background: the picture is transparent where no solid is",
+            "Sem o fundo: a imagem é transparente onde não há sólido"
+        );
+        let name = word!(language, "Transparent", "Transparente");
+        if button(ui, None, name, true, emphasis).on_hover_text(hint).clicked() {
+            self.transparent = !self.transparent;
+        }
+        ui.label(quiet(ui, word!(language, "region:", "região:")));
+        let name = word!(
+            language,
+            "Region: column, row, width, height; empty for the whole picture",
+            "Região: coluna, linha, largura, altura; vazio para a imagem inteira"
+        );
+        let width = (ui.available_width() - 2.0 * GRID).min(20.0 * GRID);
+        path_field(ui, (&mut self.region, "X,Y,W,H"), width, name, &mut false);
     }
 
     /// Returns what is to be traced.
@@ -136,9 +123,9 @@ impl RetracedPicture {
         format!("{width}x{height}{region}{transparent}")
     }
 
-    /// Returns the size: the chosen one, else 4K in the picture's shape.
+    /// Returns the size: the chosen one, else twice the picture's own.
     fn size(&self, session: &Session) -> [u32; 2] {
-        self.size.unwrap_or_else(|| four_k(own_size(session)))
+        self.size.unwrap_or_else(|| own_size(session).map(|side| 2 * side))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Kinds of files that the save bar writes, with their texts and file names.
+//! Kinds of files that the save sheet writes, with their texts and file names.
 
 use std::path::Path;
 
@@ -42,24 +42,15 @@ pub enum SaveKind {
 }
 
 impl SaveKind {
-    /// Kinds for a run: pictures, then drawings, then records.
-    pub const OF_RUN: [Self; 12] = [
-        Self::Render,
-        Self::Owners,
-        Self::Costs,
-        Self::Arrival,
-        Self::Blend,
-        Self::Large,
-        Self::Ring,
-        Self::Timeline,
-        Self::Film,
-        Self::Run,
-        Self::Table,
-        Self::Chrome,
+    /// Groups of kinds for a run: pictures, drawings, records.
+    pub const OF_RUN: [&[Self]; 3] = [
+        &[Self::Render, Self::Owners, Self::Costs, Self::Arrival, Self::Blend, Self::Large],
+        &[Self::Ring, Self::Timeline, Self::Film],
+        &[Self::Run, Self::Table, Self::Chrome],
     ];
 
     /// Kinds for compared runs, and for the run that is their subject.
-    pub const OF_COMPARISON: [Self; 3] = [Self::Bars, Self::Rows, Self::Run];
+    pub const OF_COMPARISON: [&[Self]; 1] = [&[Self::Bars, Self::Rows, Self::Run]];
 
     /// Returns the text of its button.
     pub fn name(self, language: Language) -> &'static str {
@@ -125,7 +116,9 @@ impl SaveKind {
                     "A linha do tempo de toda a execução: SVG ou PNG"
                 )
             }
-            Self::Film => word!(language, "The whole run in ten seconds: GIF", "Toda a execução em dez segundos: GIF"),
+            Self::Film => {
+                word!(language, "The whole run in some seconds: GIF", "Toda a execução em alguns segundos: GIF")
+            }
             Self::Run => word!(
                 language,
                 "All records of the run, to play it again",
@@ -221,11 +214,8 @@ impl SaveKind {
     }
 }
 
-/// Returns the largest size of this shape within 3840 × 2160 pixels.
-pub fn four_k([width, height]: [u32; 2]) -> [u32; 2] {
-    let scale = (3840.0 / f64::from(width)).min(2160.0 / f64::from(height));
-    [width, height].map(|side| (f64::from(side) * scale).round() as u32)
-}
+/// What people call 4K: the pixels of a screen, 16 : 9.
+pub const FOUR_K: [u32; 2] = [3840, 2160];
 
 /// Whether two sizes have the same shape, up to one pixel.
 pub fn has_same_shape([width, height]: [u32; 2], [w, h]: [u32; 2]) -> bool {
@@ -251,10 +241,8 @@ mod tests {
     use crate::gui::settings::Settings;
 
     #[test]
-    fn four_k_size_keeps_the_shape() {
-        assert_eq!(four_k([640, 480]), [2880, 2160]);
-        assert_eq!(four_k([1600, 900]), [3840, 2160]);
-        assert_eq!(four_k([2000, 100]), [3840, 192]);
+    fn sizes_of_one_shape_differ_by_a_pixel_at_most() {
+        assert!(has_same_shape([1280, 720], FOUR_K));
         assert!(has_same_shape([641, 480], [2885, 2160]) && has_same_shape([640, 480], [333, 250]));
         assert!(!has_same_shape([640, 480], [3840, 2160]) && !has_same_shape([640, 480], [480, 640]));
     }
@@ -269,7 +257,7 @@ mod tests {
         assert_eq!(named(SaveKind::Large, false), "my-scene-3840x2160.png");
         assert_eq!(named(SaveKind::Timeline, true), "my-scene-640x480-ring-8-timeline.svg");
         assert_eq!(named(SaveKind::Bars, false), "my-scene-640x480-comparison.svg");
-        for kinds in [&SaveKind::OF_RUN[..], &SaveKind::OF_COMPARISON] {
+        for kinds in [SaveKind::OF_RUN.concat(), SaveKind::OF_COMPARISON.concat()] {
             let names: std::collections::BTreeSet<String> = kinds.iter().map(|kind| named(*kind, true)).collect();
             assert_eq!(names.len(), kinds.len(), "file names differ");
         }
