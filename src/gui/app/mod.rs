@@ -241,7 +241,7 @@ impl App {
         let words = |notice: f32| lesson.unwrap_or_else(|| narration::height(ui, notice));
         let (height, usual) = (words(notice), words(0.0));
         // The audience of a projector only looks; its presenter uses keys.
-        if !self.projector || self.shows_timeline && !self.learn.is_on() {
+        if (self.shows_timeline || !self.projector) && !self.is_lesson_tight(ui.ctx()) {
             self.machines(ui, ui.available_height() - usual - time::HEIGHT_PT, sheet);
         }
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
@@ -256,9 +256,8 @@ impl App {
         if lesson.is_some() {
             self.notice_panel(ui);
         }
-        // A low window has no room for the time bar beside a lesson, and a lesson has its own buttons.
-        let is_tight = lesson.is_some() && ui.ctx().content_rect().height() < 560.0;
-        if !(self.projector || is_tight) || self.time.is_finding() {
+        // A lesson has its own buttons.
+        if !(self.projector || self.is_lesson_tight(ui.ctx())) || self.time.is_finding() {
             let time = Panel::bottom("time").frame(panel(4, 4)).exact_size(time::HEIGHT_PT + 8.0);
             let row = |ui: &mut Ui| self.time.show(ui, &mut self.session, self.shows_timeline);
             if let Some(command) = time.show(ui, row).inner {
@@ -350,8 +349,13 @@ impl App {
         self.highlight = details.map(|details| details.highlight(stage.state())).unwrap_or_default();
     }
 
-    /// Shows the picture and, beside it, the ring or the inspector. On a projector the timeline of a lesson takes the
-    /// place of the ring: below the picture there is no room for it.
+    /// Whether there is no room for the table, the timeline and the time bar below the picture of a lesson.
+    fn is_lesson_tight(&self, ctx: &Context) -> bool {
+        self.learn.is_on() && (self.projector || ctx.content_rect().height() < 560.0)
+    }
+
+    /// Shows the picture and, beside it, the ring or the inspector. Where a lesson is tight, its timeline takes the place
+    /// of the ring.
     fn main_area(&mut self, ui: &mut Ui, sheet: f32) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         // In less height both would be cut off.
@@ -367,7 +371,7 @@ impl App {
         if let Some(right) = right {
             ui.scope_builder(within(right), |ui| match self.session.inspected_pixel() {
                 Some(pixel) => inspector::show(ui, pixel, &mut self.session),
-                None if self.projector && self.learn.is_on() && self.shows_timeline => self.timeline(ui),
+                None if self.shows_timeline && self.is_lesson_tight(ui.ctx()) => self.timeline(ui),
                 None => ring::show(ui, &mut self.session, &mut self.selection, &self.highlight),
             });
         }
@@ -405,8 +409,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let language = self.session.language();
-        zoom::follow_window(ui.ctx(), self.projector);
-        zoom::keys(ui.ctx());
+        zoom::update(ui.ctx(), self.projector);
         // While a path field is open, letters belong to it, even if it does not have the focus.
         let is_typing = ui.ctx().text_edit_focused() || self.save_sheet.is_open() || self.gallery.is_open();
         for command in keys::pressed(ui.ctx(), is_typing) {
