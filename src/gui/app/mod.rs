@@ -354,8 +354,8 @@ impl App {
         self.learn.is_on() && (self.projector || ctx.content_rect().height() < 560.0)
     }
 
-    /// Shows the picture and, beside it, the ring or the inspector. Where a lesson is tight, its timeline takes the place
-    /// of the ring.
+    /// Shows the picture and, beside it, the ring or the inspector. Where a lesson is tight, its timeline takes the
+    /// place of the ring.
     fn main_area(&mut self, ui: &mut Ui, sheet: f32) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         // In less height both would be cut off.

@@ -66,8 +66,8 @@ fn next_text(is_over: bool, language: Language) -> &'static str {
     if is_over { word!(language, "Other lessons", "Outras lições") } else { word!(language, "Next", "Avançar") }
 }
 
-/// Returns the title of the lesson, the number of the step, and the right answers so far; or while a question waits, the
-/// keys that answer it: they select no machine then.
+/// Returns the title of the lesson, the number of the step, and the right answers so far; or while a question waits,
+/// the keys that answer it: they select no machine then.
 fn heading(progress: &LessonProgress, language: Language) -> String {
     let (title, number, all) = (progress.title(language), progress.step() + 1, progress.steps());
     let heading = say!(language, "{title} · step {number} of {all}", "{title} · passo {number} de {all}");
