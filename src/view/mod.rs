@@ -51,7 +51,9 @@ pub use analysis::time_budget::{LastMachine, MachineSeconds, TimeBudget};
 pub use charts::axis::{Axis, Scale};
 pub use charts::bar_chart::{Bar, BarChart};
 pub use charts::line_chart::{CHART_SIZE, LineChart, MIN_CHART_HEIGHT, Series, Style, series_hue};
-pub use charts::time_budget_chart::{part_names, time_budget_height, time_budget_marks, time_budget_words};
+pub use charts::time_budget_chart::{
+    part_names, time_budget_height, time_budget_legend, time_budget_marks, time_budget_words,
+};
 pub use charts::tradeoff::{Tradeoff, TradeoffDrawing};
 pub use draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 pub use inspect::{ChosenRay, Inspected, RaySpot, RayTree, SpanPlot, Term, Terms};
@@ -71,7 +73,7 @@ pub use playback::details::{Details, Highlight};
 pub use playback::run_view::RunView;
 pub use playback::snapshots::{Snapshot, SnapshotCache};
 pub use print::PrintedDrawing;
-pub use ring::corners::ring_corners;
+pub use ring::corners::{ring_corner_at, ring_corners};
 pub use ring::layout::RingLayout;
 pub use ring::{RingOverlay, RingSpot, message_at, ring, ring_at};
 pub use state::atom_state::AtomState;
@@ -85,6 +87,7 @@ pub use text::format::{
     TimeScale, activity_word, bytes_words, count, duration, fraction, node_name, percent, rate_number, rate_words,
     row_words, time_words, two_digits,
 };
+pub use text::glossary::{Definition, DefinitionGroup};
 pub use text::media::note_on_media;
 pub use text::quality::{measured_lines, quality_lines, quality_words, times_words};
 pub use text::remedies::{remedies_words, remedy_hint, remedy_name, without};

@@ -192,6 +192,7 @@ fn assert_pages_legible(size: [f32; 2], in_projector_mode: bool) {
             (Key::S, "saving", Hidden::Typed),
             (Key::T, "the timeline", Hidden::Nothing),
             (Key::F1, "the keys", Hidden::Below),
+            (Key::W, "the words", Hidden::Below),
             (Key::F, "what is worth jumping to", Hidden::Below),
             (Key::N, "the lessons", Hidden::Lines),
         ] {

@@ -7,6 +7,7 @@ mod driving;
 mod escape;
 mod failing;
 mod files;
+mod glossary;
 mod inspector;
 mod layout;
 mod learn;

@@ -209,6 +209,7 @@ fn every_page_is_portuguese() {
         (Key::S, "saving"),
         (Key::T, "the timeline"),
         (Key::F1, "the keys"),
+        (Key::W, "the words"),
     ] {
         key(&mut window, open);
         window.run_steps(3);

@@ -251,7 +251,7 @@ fn timeline_shows_the_work_of_machines_and_selects_an_atom() {
     let mut window = finished();
     key(&mut window, Key::T);
     let said = window.get_by_label("Timeline").value().unwrap_or_default();
-    assert!(said.contains(" of the machines' time used") && said.contains(" messages, "), "{said}");
+    assert!(said.contains(" of the machines' time spent tracing") && said.contains(" messages, "), "{said}");
     let stage = session(&window).stage();
     let bars = stage.lanes().lanes()[2].bars();
     let longest = bars.iter().max_by_key(|bar| bar.to.since(bar.from)).copied().expect("an atom");

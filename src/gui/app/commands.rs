@@ -4,6 +4,7 @@ use egui::{Context, Theme, ViewportCommand};
 
 use super::App;
 use crate::gui::input::keys::UserCommand;
+use crate::gui::pages::help::HelpTab;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::theme::Look;
 use crate::language::{say, word};
@@ -15,8 +16,9 @@ impl App {
     pub(super) fn handle_command(&mut self, command: UserCommand, ctx: &Context) {
         let language = self.session.language();
         // While the list of keys is open, any other key closes it and does what the list says.
-        if self.help && !matches!(command, UserCommand::Help | UserCommand::Back | UserCommand::Quit) {
-            self.help = false;
+        let is_of_help = matches!(command, UserCommand::Help | UserCommand::Words);
+        if !is_of_help && !matches!(command, UserCommand::Back | UserCommand::Quit) {
+            self.help = None;
         }
         // A presenter's remote control sends only Page Down and Page Up.
         if let (true, false, UserCommand::Dolly(back)) = (self.projector, self.learn.is_on(), command) {
@@ -140,10 +142,16 @@ impl App {
                 ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
             }
             UserCommand::Projector => self.set_projector(!self.projector, ctx),
-            UserCommand::Help => self.help = !self.help,
+            UserCommand::Help => self.toggle_help(HelpTab::Keys),
+            UserCommand::Words => self.toggle_help(HelpTab::Words),
             UserCommand::Back => self.close_innermost(ctx),
             UserCommand::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
         }
+    }
+
+    /// Opens the Help page with this tab, or closes it if it shows the tab.
+    fn toggle_help(&mut self, tab: HelpTab) {
+        self.help = (self.help != Some(tab)).then_some(tab);
     }
 
     /// Whether a page replaces the picture and the ring.

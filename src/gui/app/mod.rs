@@ -22,7 +22,7 @@ use super::input::zoom;
 use super::pages::accuracy::Accuracy;
 use super::pages::compare::Compare;
 use super::pages::gallery::Gallery;
-use super::pages::help;
+use super::pages::help::{self, HelpTab};
 use super::pages::learn::Learn;
 use super::panels::picture::PicturePanel;
 use super::panels::save_sheet::{FilmOptions, SaveSheet};
@@ -56,7 +56,8 @@ pub struct App {
     accuracy: Accuracy,
     compare: Compare,
     learn: Learn,
-    help: bool,
+    /// The open tab of the Help page.
+    help: Option<HelpTab>,
     timeline: TimelinePanel,
     /// Whether the timeline replaces the table of machines.
     shows_timeline: bool,
@@ -128,7 +129,7 @@ impl App {
             accuracy: Accuracy::default(),
             compare: Compare::default(),
             learn: Learn::default(),
-            help: false,
+            help: None,
             timeline: TimelinePanel::default(),
             shows_timeline: stored.shows_timeline,
             split: Split { share: stored.split.filter(|share| (0.0..1.0).contains(share)) },
@@ -412,8 +413,8 @@ impl eframe::App for App {
             self.session.trouble(refused.sentence(language));
         }
         self.ask_to_quit(ui.ctx());
-        if self.help && help::show(ui.ctx(), language) {
-            self.help = false;
+        if self.help.as_mut().is_some_and(|tab| help::show(ui.ctx(), tab, language)) {
+            self.help = None;
         }
         if !ui.input(|input| input.raw.hovered_files.is_empty()) {
             notice::drop_here(ui, language);

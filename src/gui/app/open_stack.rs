@@ -34,7 +34,7 @@ pub enum Closable {
     Save,
     /// An error.
     Trouble,
-    /// The list of keys.
+    /// The lists of keys and words.
     Help,
 }
 
@@ -116,7 +116,7 @@ impl App {
             Closable::Save => self.save_sheet.is_open(),
             // A note goes by itself.
             Closable::Trouble => self.session.notice().is_some_and(|notice| notice.kind != NoticeKind::Note),
-            Closable::Help => self.help,
+            Closable::Help => self.help.is_some(),
         }
     }
 
@@ -135,7 +135,7 @@ impl App {
             Closable::Compare => self.compare.close(&mut self.session),
             Closable::Save => self.save_sheet.close(),
             Closable::Trouble => self.session.close_notice(),
-            Closable::Help => self.help = false,
+            Closable::Help => self.help = None,
         }
     }
 }

@@ -86,6 +86,8 @@ pub enum UserCommand {
     FullScreen,
     /// Opens or closes the list of keys.
     Help,
+    /// Opens or closes the list of words.
+    Words,
     /// Closes what lies on top.
     Back,
     /// Closes the window.
@@ -350,6 +352,11 @@ pub const KEY_TABLE: &[KeyRow] = &[
         keys_text: same("F1"),
         effect: ("This list of keys", "Esta lista de teclas"),
         keys: &[(NONE, Key::F1, UserCommand::Help)],
+    },
+    KeyRow {
+        keys_text: same("W"),
+        effect: ("What the words of this window mean", "O que significam as palavras desta janela"),
+        keys: &[(NONE, Key::W, UserCommand::Words)],
     },
     KeyRow { keys_text: same("Ctrl Q"), effect: ("Quit", "Sair"), keys: &[(CTRL, Key::Q, UserCommand::Quit)] },
 ];

@@ -4,10 +4,11 @@ use egui::{Align2, Popup, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, p
 
 use crate::balance::{Condition, NodeId};
 use crate::gui::session::Session;
+use crate::gui::widgets::explained::explained;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{action_menu, popup_frame};
 use crate::language::{Language, say, word};
-use crate::view::{NodeRow, activity_word, node_name};
+use crate::view::{Definition, NodeRow, activity_word, node_name};
 
 /// Opens the menu of a machine when `response` is right-clicked.
 pub fn on(response: &Response, session: &mut Session, node: NodeId, look: Look) {
@@ -26,6 +27,7 @@ pub fn on_activity(ui: &mut Ui, (left, row_rect): (f32, Rect), session: &mut Ses
         let label = say!(language, "Machine {name} now: {activity}", "Máquina {name} agora: {activity}");
         WidgetInfo::labeled(Role::Button, session.can_fail(), label)
     });
+    let response = explained(response, Definition::of_activity(row.activity), language);
     if response.hovered() || response.has_focus() {
         let inner = rect.shrink2(vec2(0.0, 3.0));
         ui.painter().rect_stroke(inner, 5.0, Stroke::new(1.0, look.hairline), egui::StrokeKind::Inside);

@@ -5,13 +5,14 @@ use egui::{Align2, Color32, CornerRadius, FontId, Label, Rect, RichText, Sense, 
 
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets;
+use crate::gui::widgets::explained::{explain_at, explained};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::runlog::Driver;
 use crate::time::Time;
 use crate::view::{
-    Details, Happening, NodeShare, before_virtual_time, disturbance_words, node_name, node_shares, percent,
+    Definition, Details, Happening, NodeShare, before_virtual_time, disturbance_words, node_name, node_shares, percent,
     record_words, result_words, summary_figures, time_words, unfinished_words, work_split_words,
 };
 
@@ -193,14 +194,19 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
     let is_high = area.height() > 5.5 * GRID;
     let value = theme::strong(if is_high { theme::LARGE } else { 20.0 });
     let mut x = area.left();
-    for (figure, caption) in summary_figures(result, language) {
+    for (figure, definition) in summary_figures(result, language) {
         let figure = ui.painter().layout_no_wrap(figure, value.clone(), look.text);
-        let caption = ui.painter().layout_no_wrap(caption.to_owned(), theme::regular(theme::SMALL), look.quiet);
+        let caption = definition.name(language).to_owned();
+        let caption = ui.painter().layout_no_wrap(caption, theme::regular(theme::SMALL), look.quiet);
         let (figure_size, caption_size) = (figure.size(), caption.size());
         let below = pos2(x, area.top() + 3.25 * GRID);
         let beside = pos2(x + figure_size.x + 0.75 * GRID, area.top() + figure_size.y - caption_size.y - 2.0);
-        ui.painter().galley(pos2(x, area.top() - if is_high { 0.5 * GRID } else { 0.0 }), figure, look.text);
+        let corner = pos2(x, area.top() - if is_high { 0.5 * GRID } else { 0.0 });
+        let place = Rect::from_min_size(corner, figure_size)
+            .union(Rect::from_min_size(if is_high { below } else { beside }, caption_size));
+        ui.painter().galley(corner, figure, look.text);
         ui.painter().galley(if is_high { below } else { beside }, caption, look.quiet);
+        explain_at(ui, (place, 0), definition, language);
         x = if is_high { x + figure_size.x.max(caption_size.x) } else { beside.x + caption_size.x } + 3.0 * GRID;
     }
     let right = Rect::from_min_max(pos2(x + GRID, area.top()), area.max);
@@ -242,6 +248,7 @@ fn one_line(ui: &Ui, text: &str, font: &FontId, look: Look, width: f32) -> std::
 fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let language = session.language();
     let response = ui.interact(rect, ui.scope_id().with("bar"), Sense::hover());
+    let response = explained(response, Definition::WHO_TRACED, language);
     let state = session.stage().state();
     let (shares, all) = (node_shares(state), state.atoms());
     widgets::describe(&response, word!(language, "Who has traced how much", "Quem calculou quanto"), || {
@@ -252,7 +259,7 @@ fn bar(ui: &Ui, rect: Rect, session: &Session, look: Look) {
     let end = shares.last().map_or(0.0, |share| share.end);
     if rect.width() * (1.0 - end) > 26.0 * GRID {
         let (at, font) = (pos2(rect.right() - GRID, rect.center().y), theme::regular(theme::SMALL));
-        let caption = word!(language, "who has traced how much", "quem calculou quanto");
+        let caption = Definition::WHO_TRACED.name(language);
         ui.painter().text(at, Align2::RIGHT_CENTER, caption, font, look.quiet);
     }
     let last = shares.iter().rposition(|share| share.end > share.start);

@@ -1,6 +1,6 @@
 //! The ring of machines, with its tooltips and menus.
 
-use egui::{Align2, Sense, Ui};
+use egui::{Align2, Rect, Sense, Ui, vec2};
 
 use crate::balance::NodeId;
 use crate::gui::input::machine_menu;
@@ -8,12 +8,13 @@ use crate::gui::input::message_menu::{self, MessageInMenu};
 use crate::gui::input::selection::Selection;
 use crate::gui::session::Session;
 use crate::gui::widgets;
+use crate::gui::widgets::explained::explain_at;
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, Look};
 use crate::language::{say, word};
 use crate::view::{
     Highlight, Point, RingLayout, RingOverlay, RingSpot, Subject, activity_word, flight_words, message_at, node_name,
-    node_words, parent_words, ring, ring_at, ring_corners, time_words,
+    node_words, parent_words, ring, ring_at, ring_corner_at, ring_corners, time_words,
 };
 
 /// Shows the ring as large as possible. A click selects a machine or a message, the right button opens its menu, and a
@@ -80,6 +81,11 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
     }
     if state.finished().is_none() {
         paint(&painter, rect.min, &ring_corners(&layout, state, rect.size().into(), language), &inks);
+        let corner = pointed.and_then(|at| ring_corner_at(&layout, state, rect.size().into(), at, language));
+        if let Some((definition, [left, top, right, bottom])) = corner {
+            let [from, to] = [vec2(left, top), vec2(right, bottom)].map(|by| rect.min + by);
+            explain_at(ui, (Rect::from_min_max(from, to), 0), definition, language);
+        }
     }
     // Presentation mode has no top bar with the time.
     if Look::is_strong(painter.ctx()) {

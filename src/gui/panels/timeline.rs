@@ -7,14 +7,15 @@ use crate::balance::{NodeId, Party};
 use crate::gui::input::selection::Selection;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets;
+use crate::gui::widgets::explained::explain_at;
 use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::time::Time;
 use crate::view::{
-    Details, Highlight, Subject, TimeScale, TimeWindow, Timeline, TimelineLayout, activity_word, axis, bytes_words,
-    count, fraction, node_name, time_words, timeline, timeline_at,
+    Definition, Details, Highlight, Subject, TimeScale, TimeWindow, Timeline, TimelineLayout, activity_word, axis,
+    bytes_words, count, fraction, node_name, time_words, timeline, timeline_at,
 };
 
 /// Width of the heads left of the lanes (number, slider, speed), in points.
@@ -96,7 +97,7 @@ impl TimelinePanel {
         }
         let painter = ui.painter_at(lanes.expand(1.0));
         self.paint(&painter, lanes, &layout, stage, highlight, look);
-        usage(&ui.painter_at(area), (area, has_sliders), &layout, stage, look, language);
+        usage(ui, (area, has_sliders), &layout, stage, look, language);
         let scale = TimeScale::of_length(stage.shown_length());
         self.axis(&painter, lanes, &layout, scale, look, language);
         for node in 0..nodes as NodeId {
@@ -317,9 +318,10 @@ fn numbers(painter: &Painter, area: Rect, layout: &TimelineLayout, look: Look) {
     }
 }
 
-/// Paints the figures of the machines' usage up to the shown time, as many as fit, above the strip that shows it.
+/// Paints the figures of the machines' usage up to the shown time, as many as fit, above the strip that shows it. Each
+/// explains itself.
 fn usage(
-    painter: &Painter,
+    ui: &Ui,
     (area, has_caption): (Rect, bool),
     lanes: &TimelineLayout,
     stage: &Stage,
@@ -329,31 +331,54 @@ fn usage(
     if lanes.header_height == 0.0 || stage.lasted() == Time::ZERO {
         return;
     }
-    let layout = |text: String| painter.layout_no_wrap(text, theme::regular(theme::SMALL), look.quiet);
-    let figures = usage_figures(stage, language);
-    let mut galleys = (1..=figures.len()).rev().map(|count| layout(figures[..count].join(" · ")));
-    if let Some(galley) = galleys.find(|galley| galley.size().x <= area.width()) {
-        painter.galley(area.min, galley, look.quiet);
+    let painter = ui.painter_at(area);
+    let layout = |text: &str| painter.layout_no_wrap(text.to_owned(), theme::regular(theme::SMALL), look.quiet);
+    let mut corner = area.min;
+    for (text, definition) in usage_figures(stage, language) {
+        let dot = if corner.x > area.left() { "  ·  " } else { "" };
+        let (dot, galley) = (layout(dot), layout(&text));
+        let place = Rect::from_min_size(corner + vec2(dot.size().x, 0.0), galley.size());
+        if place.right() > area.right() {
+            break;
+        }
+        painter.galley(corner, dot, look.quiet);
+        painter.galley(place.min, galley, look.quiet);
+        explain_at(ui, (place, 0), definition, language);
+        corner = place.right_top();
     }
     // Narrow heads have no room for the caption.
     if !has_caption {
         return;
     }
-    let label = layout(word!(language, "machines in use", "máquinas em uso").into());
+    let label = layout(Definition::IN_USE.name(language));
     let corner = pos2(area.left(), area.top() + lanes.header_height - label.size().y - 4.0);
+    explain_at(ui, (Rect::from_min_size(corner, label.size()), 0), Definition::IN_USE, language);
     painter.galley(corner, label, look.quiet);
 }
 
-/// Returns the figures of the machines' usage up to the shown time.
-fn usage_figures(stage: &Stage, language: Language) -> [String; 4] {
+/// Returns the figures of the machines' usage up to the shown time, with their definitions.
+fn usage_figures(stage: &Stage, language: Language) -> [(String, Definition); 4] {
     let usage = stage.lanes().usage(stage.lasted());
     let [used, above, under_way] = [usage.utilisation, usage.imbalance, usage.on_the_way].map(fraction);
     let (messages, bytes) = (count(usage.messages as u64), bytes_words(usage.bytes, language));
     [
-        say!(language, "{used} of the machines' time used", "{used} do tempo das máquinas usado"),
-        say!(language, "busiest machine {above} above the mean", "máquina mais ocupada {above} acima da média"),
-        say!(language, "{under_way} with an offer or atoms on the way", "{under_way} com oferta ou átomos a caminho"),
-        say!(language, "{messages} messages, {bytes}", "{messages} mensagens, {bytes}"),
+        (
+            say!(language, "{used} of the machines' time spent tracing", "{used} do tempo das máquinas calculando"),
+            Definition::TIME_USED,
+        ),
+        (
+            say!(language, "busiest machine {above} above the mean", "máquina mais ocupada {above} acima da média"),
+            Definition::IMBALANCE,
+        ),
+        (
+            say!(
+                language,
+                "{under_way} with an offer or atoms on the way",
+                "{under_way} com oferta ou átomos a caminho"
+            ),
+            Definition::ON_THE_WAY,
+        ),
+        (say!(language, "{messages} messages, {bytes}", "{messages} mensagens, {bytes}"), Definition::MESSAGES),
     ]
 }
 
@@ -364,7 +389,7 @@ fn describe(response: &Response, stage: &Stage, language: Language) {
             [stage.lasted(), stage.shown_length()].map(|time| time_words(time, stage.playback_scale(), language));
         let is_over = stage.phase == Phase::Finished && !stage.hides_later;
         let of = if is_over { word!(language, "in all", "ao todo") } else { word!(language, "so far", "até agora") };
-        let usage = usage_figures(stage, language).join(" · ");
+        let usage = usage_figures(stage, language).map(|(text, _)| text).join(" · ");
         say!(language, "{until} of {length} {of}: {usage}", "{until} de {length} {of}: {usage}")
     });
 }

@@ -1,6 +1,7 @@
 //! Widgets: buttons, slider, number field, menu, tooltip; and fonts, colours and the painter of display lists.
 
 pub mod canvas_texture;
+pub mod explained;
 pub mod icons;
 pub mod number;
 pub mod paint;

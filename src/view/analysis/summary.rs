@@ -12,6 +12,7 @@ use crate::view::state::atom_state::AtomState;
 use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{TimeScale, atoms_words, count, counted, duration, fraction, node_name, time_words};
+use crate::view::text::glossary::Definition;
 
 /// Result of a finished run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,13 +39,13 @@ impl Summary {
     }
 }
 
-/// Returns the figures of the result with their captions.
-pub fn summary_figures(summary: &Summary, language: Language) -> [(String, &'static str); 4] {
+/// Returns the figures of the result with their definitions.
+pub fn summary_figures(summary: &Summary, language: Language) -> [(String, Definition); 4] {
     [
-        (duration(summary.makespan, language), word!(language, "start to finish", "início ao fim")),
-        (duration(summary.ideal, language), word!(language, "shared perfectly", "divisão perfeita")),
-        (fraction(summary.efficiency), word!(language, "efficiency", "eficiência")),
-        (beside(summary.makespan, summary.spread, language), word!(language, "first to last done", "da 1ª à última")),
+        (duration(summary.makespan, language), Definition::MAKESPAN),
+        (duration(summary.ideal, language), Definition::IDEAL),
+        (fraction(summary.efficiency), Definition::EFFICIENCY),
+        (beside(summary.makespan, summary.spread, language), Definition::SPREAD),
     ]
 }
 
@@ -271,7 +272,7 @@ mod tests {
     fn figures_have_captions() {
         let language = Language::English;
         assert_eq!(
-            summary_figures(&SUMMARY, language).map(|(value, caption)| format!("{value} {caption}")),
+            summary_figures(&SUMMARY, language).map(|(value, caption)| format!("{value} {}", caption.name(language))),
             ["20.4 s start to finish", "19.8 s shared perfectly", "97 % efficiency", "0.3 s first to last done"]
         );
     }

@@ -1,9 +1,10 @@
 //! Time budgets of several runs as bars on one scale of time.
 
-use crate::language::{Language, word};
+use crate::language::Language;
 use crate::view::analysis::time_budget::TimeBudget;
 use crate::view::draw::display_list::{Anchor, Hue, Ink, Mark, Point, TextSize};
 use crate::view::text::format::{duration, fraction};
+use crate::view::text::glossary::Definition;
 
 /// Height of one run's bar with its label.
 const ROW_HEIGHT: f32 = 42.0;
@@ -19,13 +20,7 @@ pub fn time_budget_height(runs: usize) -> f32 {
 
 /// Returns the names of a budget's parts, in the order of [`crate::view::MachineSeconds::parts`].
 pub fn part_names(language: Language) -> [&'static str; 5] {
-    [
-        word!(language, "tracing", "calculando"),
-        word!(language, "starting", "início"),
-        word!(language, "asking", "pedindo"),
-        word!(language, "stopped", "parada"),
-        word!(language, "waiting at the end", "espera no fim"),
-    ]
+    Definition::TIME_BUDGET.map(|part| part.name(language))
 }
 
 /// Inks of the parts: none is a node's colour.
@@ -78,26 +73,46 @@ pub fn time_budget_words(runs: &[(&str, &TimeBudget)], language: Language) -> St
     runs.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Draws the legend, without parts that no run has. Where it is too long for one line, its names are smaller.
+/// Returns the definitions of the parts in the legend, each with its area: left, top, right, bottom.
+pub fn time_budget_legend(runs: &[(&str, &TimeBudget)], width: f32, language: Language) -> Vec<(Definition, [f32; 4])> {
+    let (entries, _) = legend_entries(runs, width, language);
+    entries.into_iter().map(|(part, _, [left, right])| (part, [left, 0.0, right, LEGEND_HEIGHT])).collect()
+}
+
+/// Draws the legend, without parts that no run has.
 fn legend(runs: &[(&str, &TimeBudget)], width: f32, marks: &mut Vec<Mark>, language: Language) {
-    let is_drawn = |part: usize| runs.iter().any(|(_, budget)| budget.spent.parts()[part] > 0.0);
-    let parts = part_names(language).into_iter().zip(inks()).enumerate().filter(|(part, _)| is_drawn(*part));
-    let parts: Vec<_> = parts.map(|(_, part)| part).collect();
-    let needed = |name: &str, scale: f32| 18.0 + TextSize::Small(scale).width(name.chars().count()) + 10.0;
-    let whole: f32 = parts.iter().map(|(name, _)| needed(name, 1.0)).sum();
-    let scale = (width / whole.max(1.0)).min(1.0);
-    let mut left = 0.0;
-    for (name, ink) in parts {
+    let (entries, scale) = legend_entries(runs, width, language);
+    for (part, ink, [left, _]) in entries {
         marks.push(Mark::Box { centre: [left + 6.0, 9.0], half: [6.0; 2], round: 2.0, ink });
         marks.push(Mark::Label {
             at: [left + 18.0, 9.0],
             anchor: Anchor::Left,
-            text: name.to_owned(),
+            text: part.name(language).to_owned(),
             size: TextSize::Small(scale),
             ink: Hue::Quiet.full(),
         });
-        left += needed(name, scale);
     }
+}
+
+/// Part of a legend, with its ink, and its left and right end.
+type LegendEntry = (Definition, Ink, [f32; 2]);
+
+/// Arranges the legend. Where it is too long for one line, its names have a smaller scale.
+fn legend_entries(runs: &[(&str, &TimeBudget)], width: f32, language: Language) -> (Vec<LegendEntry>, f32) {
+    let is_drawn = |part: usize| runs.iter().any(|(_, budget)| budget.spent.parts()[part] > 0.0);
+    let parts = Definition::TIME_BUDGET.into_iter().zip(inks()).enumerate().filter(|(part, _)| is_drawn(*part));
+    let parts: Vec<_> = parts.map(|(_, part)| part).collect();
+    let needed =
+        |part: &Definition, scale: f32| 18.0 + TextSize::Small(scale).width(part.name(language).chars().count()) + 10.0;
+    let whole: f32 = parts.iter().map(|(part, _)| needed(part, 1.0)).sum();
+    let scale = (width / whole.max(1.0)).min(1.0);
+    let mut right = 0.0;
+    let place = |(part, ink): (Definition, Ink)| {
+        let left = right;
+        right += needed(&part, scale);
+        (part, ink, [left, right])
+    };
+    (parts.into_iter().map(place).collect(), scale)
 }
 
 #[cfg(test)]

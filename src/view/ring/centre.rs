@@ -12,6 +12,10 @@ use crate::view::analysis::summary::Summary;
 use crate::view::draw::display_list::{Anchor, Hue, Mark, TextSize};
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{duration, fraction, percent};
+use crate::view::text::glossary::Definition;
+
+/// Distance of a caption from the middle of a number, as a share of the number's size.
+const CAPTION_DISTANCE: f32 = 0.75;
 
 /// Draws the parent, the share of the picture that is traced, and whether the parent is busy.
 pub(crate) fn parent(layout: &RingLayout, state: &RunState, now: Time, marks: &mut Vec<Mark>, language: Language) {
@@ -32,11 +36,17 @@ pub(crate) fn parent(layout: &RingLayout, state: &RunState, now: Time, marks: &m
         !state.handling.is_zero() || state.scheduler == Scheduler::Protocol(Strategy::StaticEstimate);
     let has_room = TextSize::Small(layout.labels.text_scale).width("estimating".len()) < 2.0 * layout.parent_radius;
     let captions = has_captions(layout) || is_busy_at_times && has_room;
-    let lift = if captions { large * 0.25 } else { 0.0 };
     let (size, small) = (TextSize::Fit(large), TextSize::Small(layout.labels.text_scale));
-    text(layout, -lift, percent(state.done(), state.atoms()), size, Hue::Text, marks);
-    if captions {
+    let share = percent(state.done(), state.atoms());
+    if captions && !is_busy_at_times && has_two_captions(layout, large) {
+        text(layout, -large * CAPTION_DISTANCE, caption, small, hue, marks);
+        text(layout, 0.0, share, size, Hue::Text, marks);
+        text(layout, large * CAPTION_DISTANCE, word!(language, "done", "feito").into(), small, Hue::Quiet, marks);
+    } else if captions {
+        text(layout, -large * 0.25, share, size, Hue::Text, marks);
         text(layout, large * 0.6, caption, small, hue, marks);
+    } else {
+        text(layout, 0.0, share, size, Hue::Text, marks);
     }
     let points = arc(layout.centre, layout.parent_radius, 0.0, TAU);
     marks.push(Mark::Line { points, width: 1.5, ink: Hue::Hairline.full() });
@@ -50,21 +60,15 @@ pub(crate) fn parent(layout: &RingLayout, state: &RunState, now: Time, marks: &m
 pub(crate) fn result(layout: &RingLayout, summary: &Summary, marks: &mut Vec<Mark>, language: Language) {
     let (large, captions) = (large_text_size(layout) * 1.1, has_captions(layout));
     let (size, small) = (TextSize::Fit(large), TextSize::Small(layout.labels.text_scale));
-    // A small ring has no room for captions; the sentence below the picture explains the numbers.
-    let lines = if captions { [-1.3, 0.65] } else { [-0.65, 0.65] };
-    text(layout, large * lines[0], duration(summary.makespan, language), size, Hue::Text, marks);
-    text(layout, large * lines[1], fraction(summary.efficiency), size, Hue::Text, marks);
-    if captions {
-        text(
-            layout,
-            -large * 0.45,
-            word!(language, "start to finish", "início ao fim").into(),
-            small,
-            Hue::Quiet,
-            marks,
-        );
-        text(layout, large * 1.5, word!(language, "efficiency", "eficiência").into(), small, Hue::Quiet, marks);
+    let makespan = duration(summary.makespan, language);
+    // A small ring has no room for captions. A share without a word could be taken for another one.
+    if !captions {
+        return text(layout, 0.0, makespan, size, Hue::Text, marks);
     }
+    text(layout, -large * 1.3, makespan, size, Hue::Text, marks);
+    text(layout, -large * 0.45, Definition::MAKESPAN.name(language).into(), small, Hue::Quiet, marks);
+    text(layout, large * 0.65, fraction(summary.efficiency), size, Hue::Text, marks);
+    text(layout, large * 1.5, Definition::EFFICIENCY.name(language).into(), small, Hue::Quiet, marks);
 }
 
 /// Returns the text size of the numbers in the centre.
@@ -77,6 +81,14 @@ fn has_captions(layout: &RingLayout) -> bool {
     const LETTERS: usize = "start to finish".len();
     let width = TextSize::Small(layout.labels.text_scale).width(LETTERS);
     !layout.labels.are_small() && width < 2.0 * layout.interior_radius()
+}
+
+/// Whether the parent has room for a caption above and one below its number of this size.
+fn has_two_captions(layout: &RingLayout, number: f32) -> bool {
+    let small = TextSize::Small(layout.labels.text_scale);
+    let away = number * CAPTION_DISTANCE + 0.4 * small.units();
+    let half = (layout.parent_radius.powi(2) - away.powi(2)).max(0.0).sqrt();
+    small.width("parent".len()) < 2.0 * half
 }
 
 /// Draws a line of text `dy` below the middle of the centre.

@@ -8,6 +8,7 @@ use super::machine::MIN_PIPE_RADIUS_PX;
 use crate::language::{Language, word};
 use crate::view::draw::display_list::{Anchor, Hue, Mark, Point, TextSize};
 use crate::view::state::run_state::RunState;
+use crate::view::text::glossary::Definition;
 use crate::view::text::tooltips::drawing_notes;
 
 const SIZE: TextSize = TextSize::Small(1.0);
@@ -62,6 +63,28 @@ fn label(at: Point, anchor: Anchor, text: String) -> Mark {
     Mark::Label { at, anchor, text, size: SIZE, ink: Hue::Quiet.full() }
 }
 
+/// Finds the definition of the sign that [`ring_corners`] explains at a point, and the area of the explanation (left,
+/// top, right, bottom).
+pub fn ring_corner_at(
+    layout: &RingLayout,
+    state: &RunState,
+    size: Point,
+    [x, y]: Point,
+    language: Language,
+) -> Option<(Definition, [f32; 4])> {
+    let mut line = 0;
+    for (sign, text) in key(layout, state, language).into_iter().rev() {
+        let width = SIGN_WIDTH_PX + width_of(text);
+        let Some(middle) = free_line(layout, [0.0, width], line, size, language) else { continue };
+        line += 1;
+        let (top, bottom) = (middle - LINE_STEP_PX / 2.0, middle + LINE_STEP_PX / 2.0);
+        if (0.0..width).contains(&x) && (top..bottom).contains(&y) {
+            return Some((sign.definition(), [0.0, top, width, bottom]));
+        }
+    }
+    None
+}
+
 /// A sign of the drawing.
 #[derive(Clone, Copy)]
 enum Sign {
@@ -108,6 +131,17 @@ fn key(layout: &RingLayout, state: &RunState, language: Language) -> Vec<(Sign, 
 }
 
 impl Sign {
+    fn definition(self) -> Definition {
+        match self {
+            Self::Arc => Definition::LEFT,
+            Self::Offer => Definition::OFFER,
+            Self::Parcel => Definition::PARCEL,
+            Self::Pipe => Definition::PIPE,
+            Self::Request => Definition::REQUEST,
+            Self::Part => Definition::PART,
+        }
+    }
+
     /// Draws it round a point, in at most 16 × 14.
     fn draw(self, [x, y]: Point, marks: &mut Vec<Mark>) {
         let ink = Hue::Quiet.full();

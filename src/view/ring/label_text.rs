@@ -1,6 +1,6 @@
 //! Texts of the labels beside the nodes.
 
-use super::labels::{LabelForm, MAX_LABELLED_NODES, second_line_letters};
+use super::labels::{LabelForm, MAX_LABELLED_NODES};
 use super::layout::RingLayout;
 use crate::balance::NodeId;
 use crate::language::{Language, say};
@@ -44,20 +44,23 @@ pub(crate) fn is_labelled(layout: &RingLayout, is_selected: bool) -> bool {
     layout.nodes <= MAX_LABELLED_NODES || is_selected
 }
 
-/// Returns the two lines of a label: the atoms left, and the activity or the rate. After the run or for a machine that
-/// is out: the atoms done.
+/// Returns the two lines of a label: the atoms left, and the activity, the rate, or a low speed. After the run or for a
+/// machine that is out: the atoms done.
 fn lines(state: &RunState, of: &NodeState, activity: Activity, now: Time, language: Language) -> [String; 2] {
     let (rest, made) = (if of.left() == 1 { "resta" } else { "restam" }, if of.done == 1 { "feito" } else { "feitos" });
     let [left, done] = [of.left(), of.done].map(short_count);
     let (left, done) = (say!(language, "{left} left", "{rest} {left}"), say!(language, "{done} done", "{done} {made}"));
     match activity {
-        _ if state.finished().is_some() && activity != Activity::Spare => [done, percent(of.done, state.atoms())],
+        _ if state.finished().is_some() && activity != Activity::Spare => {
+            let share = percent(of.done, state.atoms());
+            [done, say!(language, "{share} of all", "{share} de tudo")]
+        }
         Activity::NoBand | Activity::Spare => [activity_word(activity, language).into(), String::new()],
         _ if activity.is_out() => [done, activity_word(activity, language).into()],
         Activity::Tracing => {
-            let rate = rate_words(of.rate(now), language);
-            let both = format!("{} · {rate}", fraction(of.speed));
-            [left, if of.speed < 0.995 && both.chars().count() <= second_line_letters(language) { both } else { rate }]
+            let speed = fraction(of.speed);
+            let slow = say!(language, "at {speed}", "a {speed}");
+            [left, if of.speed < 0.995 { slow } else { rate_words(of.rate(now), language) }]
         }
         _ => [left, activity_word(activity, language).into()],
     }
@@ -82,7 +85,7 @@ fn short_count(number: u32) -> String {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::labels::{NUMBER_LETTERS, first_line_letters};
+    use super::super::labels::{NUMBER_LETTERS, first_line_letters, second_line_letters};
     use super::*;
     use crate::balance::{Message, Party};
     use crate::record::{Record, RecordKind};
@@ -107,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn second_line_has_rate_or_activity() {
+    fn second_line_has_rate_or_low_speed_or_activity() {
         let language = Language::English;
         let mut state = RunState::new(&sample_runs::header(&[1.0, 0.1], 300));
         let mut apply = |ms: u64, kind| state.apply(&Record { at: Time(ms * 1_000_000), kind });
@@ -127,7 +130,7 @@ mod tests {
             let now = Time::from_secs(1.0);
             lines(state, &state.nodes()[usize::from(node)], state.activity(node, now), now, language).join(", ")
         };
-        assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, 10 % · 5.0/s"]);
+        assert_eq!([said(&state, 0), said(&state, 1)], ["100 left, 50/s", "145 left, at 10 %"]);
         state.apply(&Record { at: Time::from_secs(1.0), kind: RecordKind::Paused { node: 1 } });
         assert_eq!(said(&state, 1), "145 left, paused");
         state.nodes[0].left = 0;

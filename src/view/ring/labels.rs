@@ -38,7 +38,7 @@ const EDGE_GAP_PX: f32 = 2.0;
 pub(crate) fn first_line_letters(language: Language) -> usize {
     word!(language, 10, 12)
 }
-/// Maximum letters of a second line, as in `10 % · 62/s` or `oferece ajuda`.
+/// Maximum letters of a second line, as in `offers help` or `oferece ajuda`.
 pub(crate) fn second_line_letters(language: Language) -> usize {
     word!(language, 12, 13)
 }

@@ -274,7 +274,7 @@ pub(super) fn sentences_after_it(log: &RunLog, language: Language) -> Said {
         said.extend(
             summary_figures(&summary, language)
                 .into_iter()
-                .map(|(value, what)| (Room::Same, format!("{value} {what}"))),
+                .map(|(value, what)| (Room::Same, format!("{value} {}", what.name(language)))),
         );
     }
     said

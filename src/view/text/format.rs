@@ -7,6 +7,7 @@ use crate::language::{Language, comma, decimal, say, word};
 use crate::time::Time;
 use crate::view::state::node_rows::NodeRow;
 use crate::view::state::node_state::Activity;
+use crate::view::text::glossary::Definition;
 
 /// Returns a node's name for people: its number from 1.
 pub fn node_name(node: NodeId) -> u32 {
@@ -248,25 +249,7 @@ pub fn row_words(row: &NodeRow, language: Language) -> String {
 
 /// Returns the word for what a node is doing.
 pub fn activity_word(activity: Activity, language: Language) -> &'static str {
-    match activity {
-        Activity::NoBand => word!(language, "no band", "sem faixa"),
-        Activity::Tracing => word!(language, "tracing", "calculando"),
-        Activity::SpeedZero => word!(language, "at 0 %", "a 0 %"),
-        Activity::Paused => word!(language, "paused", "em pausa"),
-        Activity::Offering => word!(language, "offers help", "oferece ajuda"),
-        Activity::Asking => word!(language, "asking", "pedindo"),
-        Activity::InLine => word!(language, "in line", "na fila"),
-        Activity::Receiving => word!(language, "receiving", "recebendo"),
-        Activity::Idle => word!(language, "idle", "ociosa"),
-        Activity::Retired => word!(language, "retired", "dispensada"),
-        Activity::Asleep => word!(language, "asleep", "dormindo"),
-        Activity::NoMore => word!(language, "no more", "sem trabalho"),
-        Activity::Hung => word!(language, "hung", "travada"),
-        Activity::CutOff => word!(language, "cut off", "isolada"),
-        Activity::Off => word!(language, "off", "desligada"),
-        Activity::Spare => word!(language, "spare", "reserva"),
-        Activity::Done => word!(language, "done", "pronta"),
-    }
+    Definition::of_activity(activity).name(language)
 }
 
 /// Writes a number of atoms: `1 atom`, `2 atoms`.

@@ -1,6 +1,7 @@
 //! Numbers and names in words, and texts that several views share.
 
 pub mod format;
+pub mod glossary;
 pub mod media;
 pub mod quality;
 pub mod remedies;

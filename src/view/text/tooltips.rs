@@ -181,8 +181,12 @@ pub fn parent_words(state: &RunState, now: Time, language: Language) -> Vec<(&'s
 /// Returns notes on the drawing of the ring, one on each line.
 pub fn drawing_notes(state: &RunState, language: Language) -> Vec<String> {
     let (takes, handling) = (latency_words(state, language), duration(state.handling, language));
-    let mut lines =
-        vec![word!(language, "some atoms take longer than others", "alguns átomos demoram mais que outros").to_owned()];
+    let mut lines = [
+        word!(language, "some atoms take longer than others", "alguns átomos demoram mais que outros"),
+        word!(language, "all machines are emulated", "as máquinas são emuladas"),
+    ]
+    .map(str::to_owned)
+    .to_vec();
     match state.scheduler() {
         Scheduler::WorkStealing => lines.push(
             word!(

@@ -6,13 +6,14 @@ use egui::{
 };
 
 use super::{CompareColumn, MAX_RUNS, adding};
+use crate::gui::widgets::explained::explain_at;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
 use crate::language::{Language, say, word};
 use crate::sim::Change;
 use crate::time::Time;
-use crate::view::{ComparedRun, Layer, duration, fraction, percent};
+use crate::view::{ComparedRun, Definition, Layer, duration, fraction, percent};
 
 /// Action of a column's button; the index is the column's.
 pub enum ColumnAction {
@@ -207,12 +208,16 @@ fn progress(ui: &Ui, rect: Rect, run: Option<&ComparedRun>, now: Time, length: T
     let (first, colour) = match &run.budget {
         Some(budget) if is_over => (duration(budget.makespan, language), look.text),
         None if now >= length => (word!(language, "never ends", "nunca termina").to_owned(), look.trouble),
-        _ => (percent(state.done(), state.atoms()), look.quiet),
+        _ => {
+            let share = percent(state.done(), state.atoms());
+            (say!(language, "{share} done", "{share} feito"), look.quiet)
+        }
     };
     painter.text(base, egui::Align2::LEFT_TOP, first, large, colour);
     if let Some(budget) = run.budget.as_ref().filter(|_| is_over) {
         let efficiency = fraction(budget.efficiency());
         let text = say!(language, "efficiency {efficiency}", "eficiência {efficiency}");
-        painter.text(pos2(rail.right(), base.y + 2.0), egui::Align2::RIGHT_TOP, text, small, look.quiet);
+        let place = painter.text(pos2(rail.right(), base.y + 2.0), egui::Align2::RIGHT_TOP, text, small, look.quiet);
+        explain_at(ui, (place, rail.left() as i32), Definition::EFFICIENCY, language);
     }
 }

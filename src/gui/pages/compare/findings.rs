@@ -1,19 +1,20 @@
 //! Findings of a comparison: timelines, time budgets, growth curves, and why two runs differ.
 
-use egui::{RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
 
 use super::columns::letter;
 use super::growth::{self, Measure};
 use super::{CompareColumn, lanes};
 use crate::gui::session::Growth;
 use crate::gui::widgets;
+use crate::gui::widgets::explained::{explain_at, explained};
 use crate::gui::widgets::paint::{Inks, paint};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::{
-    NamedBudget, TimeBudget, compare_runs, count, duration, fraction, time_budget_height, time_budget_marks,
-    time_budget_words,
+    Definition, NamedBudget, TimeBudget, compare_runs, count, duration, fraction, time_budget_height,
+    time_budget_legend, time_budget_marks, time_budget_words,
 };
 
 /// A tab of the findings.
@@ -63,6 +64,9 @@ impl Findings {
         let left = area.with_max_x(area.right() - right - 3.0 * GRID);
         let right = area.with_min_x(area.right() - right);
         ui.scope_builder(UiBuilder::new().max_rect(left), |ui| {
+            let machines = word!(language, "With one to eight machines", "Com uma a oito máquinas");
+            let [speedup, efficiency] = [Definition::SPEEDUP, Definition::EFFICIENCY]
+                .map(|measure| format!("{}\n{machines}", measure.text(language)));
             let tabs = [
                 (
                     Tab::Lanes,
@@ -74,16 +78,8 @@ impl Findings {
                     word!(language, "Where the time went", "Para onde foi o tempo"),
                     word!(language, "Work, waiting, messages", "Trabalho, espera, mensagens"),
                 ),
-                (
-                    Tab::Growth(Measure::Speedup),
-                    "Speedup",
-                    word!(language, "With one to eight machines", "Com uma a oito máquinas"),
-                ),
-                (
-                    Tab::Growth(Measure::Efficiency),
-                    word!(language, "Efficiency", "Eficiência"),
-                    word!(language, "With one to eight machines", "Com uma a oito máquinas"),
-                ),
+                (Tab::Growth(Measure::Speedup), "Speedup", &*speedup),
+                (Tab::Growth(Measure::Efficiency), word!(language, "Efficiency", "Eficiência"), &*efficiency),
             ];
             if let Some(tab) = widgets::choice_buttons(ui, self.tab, &tabs) {
                 self.tab = tab;
@@ -135,72 +131,16 @@ impl Findings {
 
 /// Shows a table with a row for each figure and a column for each of the two runs.
 fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, language: Language) {
-    /// Name, tooltip, and value of a figure.
-    type Figure = ([&'static str; 2], fn(&TimeBudget, Language) -> String);
+    /// A figure, and its value.
+    type Figure = (Definition, fn(&TimeBudget, Language) -> String);
     let all: [Figure; 7] = [
-        (
-            word!(
-                language,
-                ["time", "Makespan: until the picture is complete"],
-                ["tempo", "Makespan: até a imagem ficar pronta"]
-            ),
-            |budget, language| duration(budget.makespan, language),
-        ),
-        (
-            word!(
-                language,
-                ["shared perfectly", "Ideal makespan: if all machines worked until the end"],
-                ["divisão perfeita", "Makespan ideal: se todas as máquinas trabalhassem até o fim"]
-            ),
-            |budget, language| duration(budget.ideal, language),
-        ),
-        (
-            word!(language, ["efficiency", "Ideal makespan / makespan"], ["eficiência", "Makespan ideal / makespan"]),
-            |budget, _| fraction(budget.efficiency()),
-        ),
-        (
-            word!(
-                language,
-                [
-                    "messages to share",
-                    "All messages without results and beats: bands, requests, parts, offers, transfers …"
-                ],
-                ["mensagens de divisão", "Todas, sem resultados e sinais de vida: faixas, pedidos, partes, ofertas …"]
-            ),
-            |budget, _| count(budget.messages.sharing()),
-        ),
-        (
-            word!(
-                language,
-                [
-                    "messages with results",
-                    "A machine sends its pixels to the parent in small batches, so that the picture grows visibly. A slow \
-                    machine sends its atoms one by one, so it makes more messages, with every strategy",
-                ],
-                [
-                    "mensagens de resultados",
-                    "Uma máquina envia seus pixels ao pai em pequenos lotes, para que se veja a imagem crescer. Uma máquina \
-                    lenta envia seus átomos um a um e assim faz mais mensagens, em toda estratégia",
-                ]
-            ),
-            |budget, _| count(budget.messages.results),
-        ),
-        (
-            word!(
-                language,
-                ["atoms given away", "Atoms in transfers from one machine to another"],
-                ["átomos cedidos", "Átomos em transferências de uma máquina a outra"]
-            ),
-            |budget, _| count(budget.messages.atoms_moved),
-        ),
-        (
-            word!(
-                language,
-                ["alone at the end", "Time in which only one machine still traced"],
-                ["sozinha no fim", "Tempo em que só uma máquina ainda calculava"]
-            ),
-            |budget, language| duration(budget.last.alone, language),
-        ),
+        (Definition::TIME, |budget, language| duration(budget.makespan, language)),
+        (Definition::IDEAL, |budget, language| duration(budget.ideal, language)),
+        (Definition::EFFICIENCY, |budget, _| fraction(budget.efficiency())),
+        (Definition::MESSAGES_TO_SHARE, |budget, _| count(budget.messages.sharing())),
+        (Definition::MESSAGES_WITH_RESULTS, |budget, _| count(budget.messages.results)),
+        (Definition::ATOMS_GIVEN_AWAY, |budget, _| count(budget.messages.atoms_moved)),
+        (Definition::ALONE, |budget, language| duration(budget.last.alone, language)),
     ];
     let font = theme::regular(theme::SMALL);
     let row = |ui: &mut Ui, name: &str, values: [String; 2]| {
@@ -216,9 +156,9 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
         response
     };
     row(ui, "", runs.map(|(letter, _)| letter.to_string()));
-    for ([name, hint], value_of) in all {
-        row(ui, name, runs.map(|(_, budget)| budget.map_or("—".to_owned(), |budget| value_of(budget, language))))
-            .on_hover_text(hint);
+    for (figure, value_of) in all {
+        let values = runs.map(|(_, budget)| budget.map_or("—".to_owned(), |budget| value_of(budget, language)));
+        explained(row(ui, figure.name(language), values), figure, language);
     }
 }
 
@@ -236,5 +176,15 @@ fn where_time_went(ui: &mut Ui, columns: &[CompareColumn], look: Look, language:
             time_budget_words(&runs, language)
         });
         paint(ui.painter(), rect.min, &time_budget_marks(&runs, rect.width(), language), &Inks { look, nodes: &[] });
+        for (part, [left, top, right, bottom]) in time_budget_legend(&runs, rect.width(), language) {
+            let [from, to] = [vec2(left, top), vec2(right, bottom)].map(|by| rect.min + by);
+            explain_at(ui, (Rect::from_min_max(from, to), 0), part, language);
+        }
+        let note = word!(
+            language,
+            "Shares of the machines' time. Each machine counts alike; in the efficiency a machine counts by its speed.",
+            "Partes do tempo das máquinas. Cada uma conta igual; na eficiência, uma máquina conta por sua velocidade."
+        );
+        ui.label(RichText::new(note).font(theme::regular(theme::SMALL)).color(look.quiet));
     });
 }

@@ -10,12 +10,13 @@ use crate::gui::input::selection::Selection;
 use crate::gui::session::{Phase, Session};
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets;
+use crate::gui::widgets::explained::explain_at;
 use crate::gui::widgets::icons::{self, Icon};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::view::{
-    Activity, Highlight, NodeRow, Subject, count, fraction, node_name, node_rows, rate_number, row_words,
+    Activity, Definition, Highlight, NodeRow, Subject, count, fraction, node_name, node_rows, rate_number, row_words,
 };
 use row_layout::{RowGrid, RowLayout};
 
@@ -64,29 +65,31 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
     });
 }
 
-/// Paints the captions of the columns.
+/// Paints the captions of the columns, which explain themselves.
 fn head(ui: &Ui, layout: &RowLayout, look: Look, language: Language) {
     let y = layout.row.center().y;
-    let caption = |x: f32, anchor, text: &str| {
-        ui.painter().text(pos2(x, y), anchor, text, theme::regular(theme::SMALL), look.quiet);
+    let caption = |x: f32, anchor, text: &str, definition| {
+        let place = ui.painter().text(pos2(x, y), anchor, text, theme::regular(theme::SMALL), look.quiet);
+        explain_at(ui, (place, layout.row.left() as i32), definition, language);
     };
-    caption(layout.slider.left(), Align2::LEFT_CENTER, word!(language, "speed", "velocidade"));
+    let named = |x, anchor, definition: Definition| caption(x, anchor, definition.name(language), definition);
+    named(layout.slider.left(), Align2::LEFT_CENTER, Definition::SPEED);
     if let Some(bar) = layout.bar {
-        caption(bar.left(), Align2::LEFT_CENTER, word!(language, "done + left", "feitos + restam"));
+        named(bar.left(), Align2::LEFT_CENTER, Definition::DONE_AND_LEFT);
     }
-    let is_tight = layout.rate.is_some_and(|rate| rate - layout.left < 7.0 * GRID);
-    let rate = if is_tight { word!(language, "atoms/s", "át./s") } else { word!(language, "atoms/s", "átomos/s") };
-    for (x, text) in [
-        (layout.done, word!(language, "done", "feitos")),
-        (Some(layout.left), word!(language, "left", "restam")),
-        (layout.rate, rate),
-        (layout.idle, word!(language, "idle", "ociosa")),
-    ] {
+    if let Some(x) = layout.rate {
+        let is_tight = x - layout.left < 7.0 * GRID;
+        let rate = if is_tight { word!(language, "atoms/s", "át./s") } else { Definition::RATE.name(language) };
+        caption(x, Align2::RIGHT_CENTER, rate, Definition::RATE);
+    }
+    for (x, definition) in
+        [(layout.done, Definition::DONE), (Some(layout.left), Definition::LEFT), (layout.idle, Definition::IDLE)]
+    {
         if let Some(x) = x {
-            caption(x, Align2::RIGHT_CENTER, text);
+            named(x, Align2::RIGHT_CENTER, definition);
         }
     }
-    caption(layout.activity, Align2::LEFT_CENTER, word!(language, "now", "agora"));
+    named(layout.activity, Align2::LEFT_CENTER, Definition::NOW_COLUMN);
 }
 
 /// Paints the background of a row, which shows selection and highlight, and names the row for screen readers.

@@ -10,11 +10,12 @@ use crate::gui::settings::Settings;
 use crate::gui::settings::pace::Pace;
 use crate::gui::settings::speed_preset::SpeedPreset;
 use crate::gui::settings::undo::Gesture;
+use crate::gui::widgets::explained::explained;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, choice_buttons, number_field, popup_frame, slider};
 use crate::language::{Language, comma, say, word};
 use crate::picture::{Quality, Size};
-use crate::view::{count, two_digits};
+use crate::view::{Definition, count, two_digits};
 
 /// Width of the panel, in points.
 pub const WIDTH_PT: f32 = 36.0 * GRID;
@@ -134,10 +135,22 @@ fn immediate_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             draft.set_preset(SpeedPreset::Random);
         }
     });
-    labelled_row(ui, word!(language, "Latency of a hop", "Latência de um salto"), look, |ui| {
-        let name = word!(language, "Latency in milliseconds", "Latência em milissegundos");
-        number_field(ui, &mut draft.latency, 0.0..=Settings::MAX_LATENCY_MS, " ms", VALUE_WIDTH_PT, (name, language));
-    });
+    labelled_row(
+        ui,
+        (word!(language, "Latency of a hop", "Latência de um salto"), Definition::LATENCY, language),
+        look,
+        |ui| {
+            let name = word!(language, "Latency in milliseconds", "Latência em milissegundos");
+            number_field(
+                ui,
+                &mut draft.latency,
+                0.0..=Settings::MAX_LATENCY_MS,
+                " ms",
+                VALUE_WIDTH_PT,
+                (name, language),
+            );
+        },
+    );
     // A square root, because latencies below half a second matter most.
     let mut root = draft.latency.sqrt();
     let max = Settings::MAX_LATENCY_MS.sqrt();
@@ -151,7 +164,7 @@ fn immediate_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
 fn restarting_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     let width = ui.available_width();
     let mut nodes = draft.speeds.len() as u32;
-    labelled_row(ui, word!(language, "Machines", "Máquinas"), look, |ui| {
+    labelled_row(ui, (word!(language, "Machines", "Máquinas"), Definition::MACHINE, language), look, |ui| {
         let name = word!(language, "Number of machines", "Número de máquinas");
         number_field(ui, &mut nodes, 1..=Settings::MAX_NODES as u32, "", VALUE_WIDTH_PT, (name, language));
     });
@@ -205,7 +218,7 @@ fn picture(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
             quality(ui, &mut draft.quality, look, language);
         });
     });
-    labelled_row(ui, word!(language, "An atom has", "Um átomo tem"), look, |ui| {
+    labelled_row(ui, (word!(language, "An atom has", "Um átomo tem"), Definition::ATOM, language), look, |ui| {
         let name = word!(language, "Pixels in an atom", "Pixels num átomo");
         number_field(ui, &mut draft.atom, 1..=100_000, " pixels", VALUE_WIDTH_PT, (name, language));
     });
@@ -259,7 +272,7 @@ fn value_list(ui: &mut Ui, value: &mut f64, all: &[f64], name: &str, text: impl 
 
 /// Shows the settings of the pace.
 fn pace(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    high_row(ui, word!(language, "Pace", "Ritmo"), look, |ui| {
+    high_row(ui, (word!(language, "Pace", "Ritmo"), Definition::PACE, language), look, |ui| {
         let seconds = if let Pace::Lasts(seconds) = draft.pace { seconds } else { 20.0 };
         let full = word!(
             language,
@@ -299,17 +312,39 @@ fn explanation(ui: &mut Ui, text: &str, look: Look) {
 }
 
 /// Shows a row that is high enough for buttons.
-fn high_row(ui: &mut Ui, name: &str, look: Look, content: impl FnOnce(&mut Ui)) {
+fn high_row<'a>(ui: &mut Ui, name: impl Into<RowName<'a>>, look: Look, content: impl FnOnce(&mut Ui)) {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 4.0 * GRID;
         labelled_row(ui, name, look, content);
     });
 }
 
+/// Label of a row, and the definition that it shows.
+struct RowName<'a> {
+    text: &'a str,
+    definition: Option<(Definition, Language)>,
+}
+
+impl<'a> From<&'a str> for RowName<'a> {
+    fn from(text: &'a str) -> Self {
+        Self { text, definition: None }
+    }
+}
+
+impl<'a> From<(&'a str, Definition, Language)> for RowName<'a> {
+    fn from((text, definition, language): (&'a str, Definition, Language)) -> Self {
+        Self { text, definition: Some((definition, language)) }
+    }
+}
+
 /// Shows a row with a label and, at its right end, the widgets of the setting.
-fn labelled_row(ui: &mut Ui, name: &str, look: Look, content: impl FnOnce(&mut Ui)) {
+fn labelled_row<'a>(ui: &mut Ui, name: impl Into<RowName<'a>>, look: Look, content: impl FnOnce(&mut Ui)) {
+    let RowName { text, definition } = name.into();
     ui.horizontal(|ui| {
-        ui.label(RichText::new(name).font(theme::regular(theme::BODY)).color(look.quiet));
+        let label = ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.quiet));
+        if let Some((definition, language)) = definition {
+            explained(label, definition, language);
+        }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), content);
     });
 }

@@ -11,7 +11,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, choice_buttons, named_button, number_field, popup_frame};
 use crate::language::{Language, say, word};
 use crate::runlog::Driver;
-use crate::view::{remedies_words, remedy_hint, remedy_name};
+use crate::view::{Definition, remedies_words, remedy_hint, remedy_name};
 
 /// Shows the settings of strategy and driver.
 pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
@@ -49,7 +49,7 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
         explanation(ui, on.hint(language), look);
     }
     let stealing = on == Scheduler::WorkStealing;
-    high_row(ui, word!(language, "Time", "Tempo"), look, |ui| {
+    high_row(ui, (word!(language, "Time", "Tempo"), Definition::VIRTUAL_TIME, language), look, |ui| {
         ui.add_enabled_ui(!stealing, |ui| {
             let virtual_hint = word!(
                 language,
@@ -80,7 +80,7 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
         )
     };
     ui.add_enabled_ui(has_part, |ui| {
-        labelled_row(ui, label, look, |ui| {
+        labelled_row(ui, (label, Definition::PART, language), look, |ui| {
             let suffix = if draft.part == 1 {
                 word!(language, " atom", " átomo")
             } else {
@@ -97,7 +97,7 @@ pub(super) fn sharing(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
 /// Shows the settings of the network; rayon's threads send no messages.
 pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     ui.add_enabled_ui(draft.scheduler() != Scheduler::WorkStealing, |ui| {
-        labelled_row(ui, word!(language, "The parent takes", "O pai leva"), look, |ui| {
+        labelled_row(ui, (word!(language, "The parent takes", "O pai leva"), Definition::HANDLING, language), look, |ui| {
             let (max, suffix) = (Settings::MAX_HANDLING_MS, word!(language, " ms each", " ms cada"));
             let name = word!(language, "Parent's milliseconds for a message", "Milissegundos do pai por mensagem");
             number_field(ui, &mut draft.handling, 0.0..=max, suffix, 13.0 * GRID, (name, language)).on_hover_text(word!(
@@ -108,7 +108,7 @@ pub(super) fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
                 esperam suas respostas"
             ));
         });
-        labelled_row(ui, word!(language, "A link", "Enlace"), look, |ui| {
+        labelled_row(ui, (word!(language, "A link", "Enlace"), Definition::BANDWIDTH, language), look, |ui| {
             let no_limit = word!(language, ": no limit", ": livre");
             let (max, suffix) = (Settings::MAX_BANDWIDTH_KB_S, if draft.bandwidth == 0 { no_limit } else { " kB/s" });
             let name = word!(language, "Kilobytes a second", "Quilobytes por segundo");
