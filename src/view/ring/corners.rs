@@ -137,6 +137,7 @@ impl Sign {
             Self::Offer => Definition::OFFER,
             Self::Parcel => Definition::PARCEL,
             Self::Pipe => Definition::PIPE,
+            Self::Results => Definition::MESSAGES_WITH_RESULTS,
             Self::Request => Definition::REQUEST,
             Self::Part => Definition::PART,
         }
