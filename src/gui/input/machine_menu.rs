@@ -55,6 +55,17 @@ fn possible_conditions(condition: Condition, is_spare: bool, language: Language)
     }
 }
 
+/// Returns the key that changes the `present` condition of a selected machine to this one. The key of a condition also
+/// ends it.
+fn key(condition: Condition, present: Condition) -> &'static str {
+    match if condition == Condition::Well { present } else { condition } {
+        Condition::Off => "X",
+        Condition::Hung => "H",
+        Condition::CutOff => "U",
+        Condition::Well => "",
+    }
+}
+
 fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
     let language = session.language();
     let name = node_name(node);
@@ -72,7 +83,9 @@ fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
         )
     };
     let conditions = possible_conditions(session.condition(node), session.is_spare(node), language);
-    let conditions = conditions.into_iter().map(|(condition, text)| (condition, text.to_owned()));
+    let present = session.condition(node);
+    let conditions =
+        conditions.into_iter().map(|(condition, text)| (condition, text.to_owned(), key(condition, present)));
     let title = say!(language, "Machine {name}", "Máquina {name}");
     if let Some(condition) = action_menu(ui, &title, conditions, (session.can_fail(), hint), look, language) {
         session.set_condition(node, condition);

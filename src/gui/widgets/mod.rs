@@ -14,8 +14,8 @@ use std::cell::Cell;
 use std::ops::RangeInclusive;
 
 use egui::{
-    Align, Color32, Context, DragValue, Frame, Id, Key, Label, Layout, Modifiers, Rect, Response, RichText, Role,
-    Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align, Color32, Context, DragValue, Frame, Id, Key, Label, Layout, Modifiers, Rect, RectAlign, Response, RichText,
+    Role, Sense, Stroke, StrokeKind, TextStyle, Tooltip, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use crate::language::{Language, word};
@@ -253,18 +253,40 @@ fn show_refusal(ui: &Ui, response: &Response, refused: Option<(String, NumberErr
         _ if response.has_focus() || response.dragged() => ui.data_mut(|data| data.remove::<bool>(id)),
         _ => {}
     }
+/// Shows a row of a menu, as wide as the menu, with its key at the right.
+fn menu_row(ui: &mut Ui, text: &str, key: &str, look: Look) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 4.0 * GRID), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), text));
+    let is_hovered = response.hovered() || response.has_focus();
+    ui.painter().rect_filled(rect, 6.0, if is_hovered { look.hairline } else { look.raised });
+    for (text, right, colour) in [(text, false, look.text), (key, true, look.quiet)] {
+        let galley = ui.painter().layout_no_wrap(text.to_owned(), TextStyle::Button.resolve(ui.style()), colour);
+        let x = if right { rect.right() - 1.5 * GRID - galley.size().x } else { rect.left() + 1.5 * GRID };
+        ui.painter().galley(pos2(x, rect.center().y - galley.size().y / 2.0), galley, colour);
+    }
+    response
+}
+
+/// Shows a tooltip above a widget, enabled or not, so that it covers nothing below.
+pub fn hint_above(response: &Response, text: &str) {
+    let mut tooltip = Tooltip::for_widget(response);
+    tooltip.popup = tooltip.popup.open(Tooltip::should_show_tooltip(response, true)).align(RectAlign::TOP);
+    tooltip.popup = tooltip.popup.align_alternatives(&[RectAlign::TOP_START, RectAlign::TOP_END]);
+    tooltip.show(|ui| ui.label(text));
+}
+
     if ui.data(|data| data.get_temp::<bool>(id)).unwrap_or(false) {
         let stroke = Stroke::new(1.5, Look::of(ui.ctx()).trouble);
         ui.painter().rect_stroke(response.rect, 4.0, stroke, StrokeKind::Outside);
     }
 }
 
-/// Shows the content of a menu for a machine or a message: a title, a button for each action, and a hint. The buttons
-/// are disabled unless the run `is_possible` to change. Returns the chosen action.
+/// Shows the content of a menu for a machine or a message: a title, a row for each action with its text and its key,
+/// and a hint. The rows are disabled unless the run `is_possible` to change. Returns the chosen action.
 pub fn action_menu<T>(
     ui: &mut Ui,
     title: &str,
-    actions: impl IntoIterator<Item = (T, String)>,
+    actions: impl IntoIterator<Item = (T, String, &'static str)>,
     (is_possible, hint): (bool, &str),
     look: Look,
     language: Language,
@@ -273,9 +295,9 @@ pub fn action_menu<T>(
     let title = Label::new(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text)).wrap();
     ui.with_layout(Layout::top_down(Align::Min), |ui| ui.add(title));
     let mut chosen = None;
-    for (action, text) in actions {
+    for (action, text, key) in actions {
         ui.add_enabled_ui(is_possible, |ui| {
-            if button(ui, None, &text, true, Emphasis::Quiet).clicked() {
+            if menu_row(ui, &text, key, look).clicked() {
                 chosen = Some(action);
                 ui.close();
             }
