@@ -69,7 +69,7 @@ fn spare_machine_joins() {
     press(&mut window, "Join");
     until(&mut window, "its work", |window| session(window).stage().state().nodes()[8].done > 0);
     assert!(is_narrated(&window, "Machine 9 joins"));
-    drag(&mut window, "Speed of machine 9", 0.5);
+    drag_speed(&mut window, 9, 50);
     assert_eq!(session(&window).speed(8), 0.5);
 }
 

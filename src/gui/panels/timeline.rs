@@ -2,9 +2,9 @@
 
 use egui::{Align2, Painter, Rect, Response, Sense, Shape, Stroke, Ui, UiBuilder, pos2, vec2};
 
-use super::nodes;
 use crate::balance::{NodeId, Party};
 use crate::gui::input::selection::Selection;
+use crate::gui::input::speed_slider;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, quads};
@@ -301,7 +301,7 @@ fn lane_head(
     if row.height() >= MIN_SLIDER_LANE_PT && row.width() > NARROW_HEAD_PT {
         let slider = Rect::from_min_max(pos2(chip.right() + GRID, row.top()), row.max);
         let at = UiBuilder::new().max_rect(slider).id_salt(("lane slider", node));
-        ui.scope_builder(at, |ui| nodes::speed_slider(ui, node, slider.width() - 6.5 * GRID, session));
+        ui.scope_builder(at, |ui| speed_slider::show(ui, node, slider.width() - 6.5 * GRID, session, true));
         let speed = fraction(session.speed(node));
         let right = pos2(slider.right(), row.center().y);
         ui.painter().text(right, Align2::RIGHT_CENTER, speed, theme::regular(theme::SMALL), look.quiet);

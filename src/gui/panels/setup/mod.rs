@@ -10,8 +10,9 @@ use crate::gui::settings::Settings;
 use crate::gui::settings::pace::Pace;
 use crate::gui::settings::speed_preset::SpeedPreset;
 use crate::gui::settings::undo::Gesture;
+use crate::gui::widgets::slider::{Scale, slider};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, choice_buttons, number_field, popup_frame, slider};
+use crate::gui::widgets::{Emphasis, button, choice_buttons, number_field, popup_frame};
 use crate::language::{Language, comma, say, word};
 use crate::picture::{Quality, Size};
 use crate::view::{count, two_digits};
@@ -142,7 +143,7 @@ fn immediate_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
     let mut root = draft.latency.sqrt();
     let max = Settings::MAX_LATENCY_MS.sqrt();
     let name = word!(language, "Latency slider", "Controle da latência");
-    if slider(ui, &mut root, (0.0..=max, false), width - GRID, look.accent, name).changed() {
+    if slider(ui, &mut root, Scale::Linear(0.0, max), width - GRID, look.accent, name).changed() {
         draft.latency = (root * root).round();
     }
 }
@@ -157,7 +158,7 @@ fn restarting_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: 
     });
     let mut dragged = f64::from(nodes);
     let name = word!(language, "Machines slider", "Controle das máquinas");
-    slider(ui, &mut dragged, (1.0..=Settings::MAX_NODES as f64, true), width - GRID, look.accent, name);
+    slider(ui, &mut dragged, Scale::Whole(1.0, Settings::MAX_NODES as f64), width - GRID, look.accent, name);
     nodes = dragged as u32;
     if nodes as usize != draft.speeds.len() {
         draft.set_nodes(nodes as usize);
