@@ -20,8 +20,17 @@ fn windows_of_every_size_show_all_widgets() {
     for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
         let window = open(size);
         let buttons = ["Scenes", "Pause", "Restart", "Undo", "Set up", "Save…", "Dark or light", "Help"];
-        let time =
-            ["Step back", "Unit of a step", "Step forward", "Slower", "Faster", "The run's time", "Live", "Find"];
+        let time = [
+            "Beginning",
+            "Step back",
+            "Unit of a step",
+            "Step forward",
+            "Slower",
+            "Faster",
+            "The run's time",
+            "Live",
+            "Find",
+        ];
         // A small picture has space for the layer's name only.
         let layer = if size[0] < 1000.0 { "Who traced it" } else { "Render or layer" };
         let others = [layer, "Speed of machine 1", "Pause machine 1"];

@@ -100,10 +100,15 @@ impl TimePanel {
         pressed
     }
 
-    /// Shows the buttons of the steps: back, unit, forward.
+    /// Shows the button of the beginning, and those of the steps: back, unit, forward.
     fn steps(&mut self, ui: &mut Ui, language: Language) -> Option<UserCommand> {
         let step = self.step;
         let mut pressed = None;
+        let name = word!(language, "Beginning", "Início");
+        let hint = word!(language, "Show the beginning of the run (Home)", "Mostrar o início da execução (Home)");
+        if button(ui, Some(Icon::Beginning), name, false, Emphasis::Quiet).on_hover_text(hint).clicked() {
+            pressed = Some(UserCommand::Beginning);
+        }
         let (name, [back_keys, forward_keys]) = (step.name(language), ['←', '→'].map(|arrow| keys(step, arrow)));
         let back =
             button(ui, Some(Icon::StepBack), word!(language, "Step back", "Passo atrás"), false, Emphasis::Quiet);
