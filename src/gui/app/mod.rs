@@ -92,6 +92,8 @@ struct StoredState {
     language: Option<Language>,
     projector: bool,
     film: FilmOptions,
+    /// Whether a changed scene is reloaded without a question.
+    always_reload: bool,
 }
 
 /// Key of [`StoredState`] in eframe's storage.
@@ -110,6 +112,7 @@ impl App {
         let settings = if stored.settings.check(language).is_ok() { stored.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
         session.set_language(language);
+        session.set_always_reload(stored.always_reload);
         session.set_recent(stored.recent.iter().map(|path| stored_path::read(path)).collect());
         match (launch.opening, &stored.scene) {
             (Some(opening), _) => session.show(opening),
@@ -443,6 +446,7 @@ impl eframe::App for App {
             language: Some(self.session.language()),
             projector: self.projector,
             film: self.save_sheet.film(),
+            always_reload: self.session.always_reloads(),
         };
         eframe::set_value(storage, STORAGE_KEY, &stored);
     }
