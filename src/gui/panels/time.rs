@@ -79,7 +79,7 @@ impl TimePanel {
                 ui.spacing_mut().item_spacing.x = GRID / 2.0;
                 pressed = pressed.or(self.find(ui, session, look));
                 let emphasis = if shows_timeline { Emphasis::On } else { Emphasis::Quiet };
-                let text = (ui.available_width() > 760.0).then_some(word!(language, "Timeline", "Linha do tempo"));
+                let text = (ui.available_width() > 470.0).then_some(word!(language, "Timeline", "Linha do tempo"));
                 let name = word!(language, "Show the timeline", "Mostrar a linha do tempo");
                 let hint = word!(
                     language,

@@ -75,7 +75,7 @@ fn head(ui: &Ui, layout: &RowLayout, look: Look, language: Language) {
     };
     caption(layout.slider.left(), Align2::LEFT_CENTER, word!(language, "speed", "velocidade"));
     if let Some(bar) = layout.bar {
-        caption(bar.left(), Align2::LEFT_CENTER, word!(language, "done + left", "feitos + restam"));
+        caption(bar.left(), Align2::LEFT_CENTER, word!(language, "done + left", "progresso"));
     }
     let is_tight = layout.rate.is_some_and(|rate| rate - layout.left < 7.0 * GRID);
     let rate = if is_tight { word!(language, "atoms/s", "át./s") } else { word!(language, "atoms/s", "átomos/s") };
