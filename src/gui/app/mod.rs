@@ -410,8 +410,8 @@ impl eframe::App for App {
         let language = self.session.language();
         zoom::follow_window(ui.ctx(), self.projector);
         zoom::keys(ui.ctx());
-        // While a path field is open, letters belong to it, even if it does not have the focus.
-        let is_typing = ui.ctx().text_edit_focused() || self.save_sheet.is_open() || self.gallery.is_open();
+        // While the save sheet is open, letters belong to its field, even if it does not have the focus.
+        let is_typing = ui.ctx().text_edit_focused() || self.save_sheet.is_open();
         for command in keys::pressed(ui.ctx(), is_typing) {
             self.handle_command(command, ui.ctx());
         }
