@@ -146,7 +146,7 @@ fn page_fits_into_small_windows() {
     key(&mut window, Key::A);
     until(&mut window, "all points", is_measured);
     for size in [[1280.0, 800.0], [1000.0, 700.0]] {
-        window.set_size(size.into());
+        resize(&mut window, size);
         window.run_steps(3);
         let whole = egui::Rect::from_min_size(egui::Pos2::ZERO, size.into());
         let rect = |name: &str| window.get_by_label(name).rect();

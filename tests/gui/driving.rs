@@ -48,7 +48,18 @@ pub fn launch_with(size: [f32; 2], storage: &Storage, launch: Launch) -> Window 
     let build = |creation: &mut eframe::CreationContext<'static>| App::new(&creation.egui_ctx, Some(storage), launch);
     let mut window = Harness::builder().with_size(size).build_eframe(build);
     until(&mut window, "a run", |window| session(window).loading().is_none() && now(window) > 0);
+    resize(&mut window, size);
     window
+}
+
+/// Gives the window a size in pixels, and waits until its zoom has followed. The harness counts in points, which a zoom
+/// makes larger.
+pub fn resize(window: &mut Window, size: [f32; 2]) {
+    for _ in 0..3 {
+        let zoom = window.ctx.zoom_factor();
+        window.set_size(egui::Vec2::from(size) / zoom);
+        window.run_steps(2);
+    }
 }
 
 /// Steps the app until `condition` is true.

@@ -154,8 +154,6 @@ impl App {
 
     /// Switches presentation mode on or off.
     pub(super) fn set_projector(&mut self, projector: bool, ctx: &Context) {
-        /// Zoom factor of presentation mode.
-        const PROJECTOR_ZOOM: f32 = 1.5;
         self.projector = projector;
         self.session.end_notices();
         if projector {
@@ -164,8 +162,6 @@ impl App {
             self.save_sheet.close();
         }
         Look::set_strong(ctx, projector);
-        let zoom = ctx.zoom_factor();
-        ctx.set_zoom_factor(if projector { zoom * PROJECTOR_ZOOM } else { zoom / PROJECTOR_ZOOM });
         ctx.send_viewport_cmd(ViewportCommand::Fullscreen(projector));
     }
 

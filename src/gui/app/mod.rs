@@ -244,7 +244,7 @@ impl App {
         let words = |notice: f32| lesson.unwrap_or_else(|| narration::height(ui, notice));
         let (height, usual) = (words(notice), words(0.0));
         // The audience of a projector only looks; its presenter uses keys.
-        if !self.projector || self.shows_timeline && !self.learn.is_on() {
+        if (self.shows_timeline || !self.projector) && lesson.is_none() {
             self.machines(ui, ui.available_height() - usual - time::HEIGHT_PT, sheet);
         }
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
@@ -297,17 +297,15 @@ impl App {
         /// Margins of this panel.
         const OWN_MARGINS_PT: f32 = 14.0;
         let (room, whole) = (room - MARGINS_PT, ui.ctx().content_rect().height());
-        let (nodes, has_lesson) = (self.session.header().speeds.len(), self.learn.is_on());
-        // The save sheet does not change the height, so that the picture stays where it is.
-        let table = |nodes: usize| nodes::height(ui, ui.available_width() + sheet, nodes, room - 0.5 * whole);
-        let usual = match self.learn.machines() {
-            // All steps of a lesson have the same height, so that the picture keeps its place.
-            Some(most) => timeline::height(ui, most, true).max(table(most)),
-            None if self.shows_timeline => timeline::height(ui, nodes, false),
-            None => table(nodes),
+        let nodes = self.session.header().speeds.len();
+        let usual = if self.shows_timeline {
+            timeline::height(ui, nodes)
+        } else {
+            // The save sheet does not change the height, so that the picture stays where it is.
+            nodes::height(ui, ui.available_width() + sheet, nodes, room - 0.5 * whole)
         };
         let usual = usual + OWN_MARGINS_PT;
-        let height = if has_lesson { usual } else { self.split.height(ui, usual, room + OWN_MARGINS_PT) };
+        let height = self.split.height(ui, usual, room + OWN_MARGINS_PT);
         let below = Panel::bottom("nodes").frame(panel(4, 8)).exact_size(height);
         let below = below.show(ui, |ui| {
             if self.shows_timeline {
@@ -316,10 +314,7 @@ impl App {
                 nodes::show(ui, &mut self.session, &mut self.selection, &self.highlight);
             }
         });
-        // A lesson has a layout of its own.
-        if !has_lesson {
-            self.split.drag(ui, below.response.rect, self.session.language());
-        }
+        self.split.drag(ui, below.response.rect, self.session.language());
     }
 
     fn timeline(&mut self, ui: &mut Ui) {
@@ -353,8 +348,8 @@ impl App {
         self.highlight = details.map(|details| details.highlight(stage.state())).unwrap_or_default();
     }
 
-    /// Shows the picture and, beside it, the ring or the inspector. On a projector the timeline of a lesson takes the
-    /// place of the ring: below the picture there is no room for it.
+    /// Shows the picture and, beside it, the ring or the inspector. In a lesson the timeline takes the place of the ring:
+    /// a lesson's text leaves no room below the picture, and its machines have nothing to set.
     fn main_area(&mut self, ui: &mut Ui, sheet: f32) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         // In less height both would be cut off.
@@ -370,7 +365,7 @@ impl App {
         if let Some(right) = right {
             ui.scope_builder(within(right), |ui| match self.session.inspected_pixel() {
                 Some(pixel) => inspector::show(ui, pixel, &mut self.session),
-                None if self.projector && self.learn.is_on() && self.shows_timeline => self.timeline(ui),
+                None if self.shows_timeline && self.learn.is_on() => self.timeline(ui),
                 None => ring::show(ui, &mut self.session, &mut self.selection, &self.highlight),
             });
         }
@@ -408,8 +403,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let language = self.session.language();
-        zoom::follow_window(ui.ctx(), self.projector);
-        zoom::keys(ui.ctx());
+        zoom::update(ui.ctx(), self.projector);
         // While the save sheet is open, letters belong to its field, even if it does not have the focus.
         let is_typing = ui.ctx().text_edit_focused() || self.save_sheet.is_open();
         for command in keys::pressed(ui.ctx(), is_typing) {

@@ -49,12 +49,11 @@ struct DrawingKey {
     length: Time,
 }
 
-/// Returns the height of the panel for this number of machines. `has_lesson` leaves room for a lesson.
-pub fn height(ui: &Ui, nodes: usize, has_lesson: bool) -> f32 {
+/// Returns the height of the panel for this number of machines.
+pub fn height(ui: &Ui, nodes: usize) -> f32 {
     let whole = ui.ctx().content_rect().height();
     // A low window leaves more room for picture and ring.
-    let is_low = whole < if has_lesson { 700.0 } else { 600.0 };
-    let max = if is_low { 0.27 } else { 0.36 } * whole;
+    let max = if whole < 600.0 { 0.27 } else { 0.36 } * whole;
     (54.0 + nodes as f32 * 22.0).clamp(12.0 * GRID, max.max(12.0 * GRID))
 }
 

@@ -23,6 +23,9 @@ pub struct TimelineLayout {
 pub(super) const STRIP_TOP_PX: f32 = 20.0;
 const STRIP_HEIGHT_PX: f32 = 20.0;
 
+/// Greatest height of a lane.
+const MAX_LANE_HEIGHT_PX: f32 = 44.0;
+
 /// Distances between the numbers of lanes.
 const LABEL_STEPS: [u16; 15] = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000, 20_000, 50_000];
 
@@ -31,7 +34,7 @@ impl TimelineLayout {
     pub fn new(lanes: usize, width: f32, height: f32) -> Self {
         let (header_height, axis_height) =
             if height > 120.0 { (STRIP_TOP_PX + STRIP_HEIGHT_PX, 18.0) } else { (0.0, 0.0) };
-        let lane_height = ((height - header_height - axis_height) / lanes.max(1) as f32).min(26.0);
+        let lane_height = ((height - header_height - axis_height) / lanes.max(1) as f32).min(MAX_LANE_HEIGHT_PX);
         Self { width, header_height, axis_height, lane_height, lanes }
     }
 

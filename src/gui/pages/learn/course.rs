@@ -104,11 +104,6 @@ impl LessonProgress {
         self.now().look == LowerView::Timeline
     }
 
-    /// Returns the greatest number of machines of the lesson's runs.
-    pub fn machines(&self) -> usize {
-        self.lesson.lesson.runs.values().map(|run| run.speeds.len()).max().unwrap_or_default()
-    }
-
     /// Answers the question with the answer at this index, and plays to the end of the step.
     pub fn answer(&mut self, index: usize, session: &mut Session) {
         if self.waits() && self.now().ask.as_ref().is_some_and(|question| index < question.answers.len()) {

@@ -84,11 +84,6 @@ impl Learn {
         self.progress.as_ref().map(LessonProgress::wants_timeline)
     }
 
-    /// Returns the greatest number of machines of the open lesson's runs.
-    pub fn machines(&self) -> Option<usize> {
-        self.progress.as_ref().map(LessonProgress::machines)
-    }
-
     /// Returns the name of the open lesson and the index of its step, for tests.
     pub fn step(&self) -> Option<(&str, usize)> {
         self.progress.as_ref().map(|progress| (progress.name(), progress.step()))

@@ -1,6 +1,6 @@
 //! Panel of a lesson's step: text, question, answers, and buttons.
 
-use egui::{Align, Color32, FontId, Label, Layout, RichText, Sense, Ui, UiBuilder, vec2};
+use egui::{Align, Color32, FontId, Label, Layout, RichText, ScrollArea, Sense, Ui, UiBuilder, vec2};
 
 use super::answers;
 use super::course::LessonProgress;
@@ -23,14 +23,16 @@ pub enum LessonAction {
 
 /// Least height of the panel, in points.
 const MIN_HEIGHT_PT: f32 = 11.0 * GRID;
+/// Greatest height of the panel, as a share of the window's.
+const MAX_SHARE: f32 = 0.6;
 /// Height of the line with the lesson's title and the buttons, in points.
 const HEAD_HEIGHT_PT: f32 = 4.0 * GRID;
 
 /// Returns the height of the panel at this width: that of the lesson's highest step, so that neither a step nor an
-/// answer changes the size of the picture.
+/// answer changes the size of the picture. In a very low window the texts scroll.
 pub fn height(ui: &Ui, width: f32, progress: &LessonProgress, language: Language) -> f32 {
     let steps = (0..progress.steps()).map(|step| step_height(ui, width, progress, step, language));
-    steps.fold(MIN_HEIGHT_PT, f32::max)
+    steps.fold(MIN_HEIGHT_PT, f32::max).min(MAX_SHARE * ui.ctx().content_rect().height())
 }
 
 /// Returns the height of a step at this width, whether its question has an answer or not.
@@ -64,8 +66,8 @@ fn next_text(is_over: bool, language: Language) -> &'static str {
     if is_over { word!(language, "Other lessons", "Outras lições") } else { word!(language, "Next", "Avançar") }
 }
 
-/// Returns the title of the lesson, the number of the step, and the right answers so far; or while a question waits, the
-/// keys that answer it: they select no machine then.
+/// Returns the title of the lesson, the number of the step, and the right answers so far; or while a question waits,
+/// the keys that answer it: they select no machine then.
 fn heading(progress: &LessonProgress, language: Language) -> String {
     let (title, number, all) = (progress.title(language), progress.step() + 1, progress.steps());
     let heading = say!(language, "{title} · step {number} of {all}", "{title} · passo {number} de {all}");
@@ -110,7 +112,8 @@ pub fn show(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Optio
         });
         pressed
     });
-    let answer = texts(ui, progress, language);
+    let scroll = ScrollArea::vertical().id_salt("step").auto_shrink(false);
+    let answer = scroll.show(ui, |ui| texts(ui, progress, language)).inner;
     pressed.inner.or(answer.map(LessonAction::Answer))
 }
 
