@@ -11,7 +11,8 @@ pub enum Scale {
     Linear(f64, f64),
     /// Whole numbers from a minimum to a maximum.
     Whole(f64, f64),
-    /// Whole per cents from 0 to 100, logarithmic: 1, 2, 5, 10, 20, 50 and 100 are about as far apart. The left end is 0.
+    /// Whole per cents from 0 to 100, logarithmic: 1, 2, 5, 10, 20, 50 and 100 are about as far apart. The left end
+    /// is 0.
     Percent,
 }
 

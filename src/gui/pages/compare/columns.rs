@@ -34,8 +34,8 @@ pub fn letter(index: usize) -> char {
     char::from(b'A' + index.min(25) as u8)
 }
 
-/// Shows all columns. A click on a picture or on a letter puts its run into the `pair` whose difference is explained. `below` is the
-/// height to leave below the columns. Returns the action of the pressed button.
+/// Shows all columns. A click on a picture or on a letter puts its run into the `pair` whose difference is explained.
+/// `below` is the height to leave below the columns. Returns the action of the pressed button.
 pub fn show(
     ui: &mut Ui,
     columns: &mut [CompareColumn],

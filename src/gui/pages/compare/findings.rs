@@ -64,7 +64,9 @@ impl Findings {
         let (look, mut sought) = (Look::of(ui.ctx()), None);
         let area = ui.available_rect_before_wrap();
         let table = NAMES_WIDTH_PT + columns.len() as f32 * MIN_FIGURE_WIDTH_PT + GRID;
-        let right = (0.32 * area.width()).clamp(34.0 * GRID, 56.0 * GRID).max(table);
+        // The tabs at the left need their room.
+        let most = area.width() - 69.0 * GRID;
+        let right = (0.32 * area.width()).clamp(34.0 * GRID, 56.0 * GRID).max(table.min(most));
         let left = area.with_max_x(area.right() - right - 3.0 * GRID);
         let right = area.with_min_x(area.right() - right);
         ui.scope_builder(UiBuilder::new().max_rect(left), |ui| {
@@ -219,29 +221,29 @@ fn figures(ui: &mut Ui, columns: &[CompareColumn], pair: [usize; 2], look: Look,
         ),
     ];
     let font = theme::regular(theme::SMALL);
-    let runs: Vec<_> = columns.iter().map(|column| column.run.as_ref()?.budget.as_ref()).collect();
+    let room = ui.available_width() - GRID - NAMES_WIDTH_PT;
+    // A narrow page has room for the pair only.
+    let has_all = columns.len() as f32 * MIN_FIGURE_WIDTH_PT <= room + 1.0;
+    let shown: Vec<usize> = (0..columns.len()).filter(|index| has_all || pair.contains(index)).collect();
+    let wide = (room / shown.len().max(1) as f32).min(11.0 * GRID);
+    let budget_of = |&index: &usize| columns[index].run.as_ref()?.budget.as_ref();
     let row = |ui: &mut Ui, name: &str, values: Vec<String>| {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
         ui.spacing_mut().item_spacing.y = 0.0;
         widgets::describe(&response, name, || values.join("; "));
         let painter = ui.painter();
         painter.text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font.clone(), look.quiet);
-        let wide = ((rect.width() - GRID - NAMES_WIDTH_PT) / values.len() as f32).min(11.0 * GRID);
-        for (index, value) in values.iter().rev().enumerate() {
-            let at = pos2(rect.right() - GRID - wide * index as f32, rect.center().y);
-            let colour = if pair.contains(&(values.len() - 1 - index)) { look.text } else { look.quiet };
+        for (place, (index, value)) in shown.iter().zip(&values).rev().enumerate() {
+            let at = pos2(rect.right() - GRID - wide * place as f32, rect.center().y);
+            let colour = if pair.contains(index) { look.text } else { look.quiet };
             painter.text(at, egui::Align2::RIGHT_CENTER, value, font.clone(), colour);
         }
         response
     };
-    row(
-        ui,
-        word!(language, "all runs", "todas as execuções"),
-        (0..runs.len()).map(|i| letter(i).to_string()).collect(),
-    );
+    row(ui, "", shown.iter().map(|&index| letter(index).to_string()).collect());
     for ([name, hint], value_of) in all {
-        let value = |budget: &Option<&TimeBudget>| budget.map_or("—".to_owned(), |budget| value_of(budget, language));
-        row(ui, name, runs.iter().map(value).collect()).on_hover_text(hint);
+        let value = |budget: Option<&TimeBudget>| budget.map_or("—".to_owned(), |budget| value_of(budget, language));
+        row(ui, name, shown.iter().map(budget_of).map(value).collect()).on_hover_text(hint);
     }
 }
 
