@@ -207,12 +207,13 @@ fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> 
             clicked = Some(UserCommand::Undo);
         }
     });
+    // The main button always has a text, the other one unless the bar is so narrow that they would cover the scene's.
+    let is_narrow = ui.ctx().content_rect().width() < 720.0;
     let mut press = |icon, name, has_text, emphasis, command, hint: &str| {
         if button(ui, Some(icon), name, has_text, emphasis).on_hover_text(hint).clicked() {
             clicked = Some(command);
         }
     };
-    // The two main buttons always have a text.
     let is_over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
     // Compare has a main button of its own.
     let emphasis = |is_main: bool| if is_main && !open.compare { Emphasis::Primary } else { Emphasis::Quiet };
@@ -230,7 +231,14 @@ fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> 
         )
     };
     let name = restart_name(language);
-    press(Icon::Restart, name, true, emphasis(is_over && session.stage().shows_end()), UserCommand::Restart, hint);
+    press(
+        Icon::Restart,
+        name,
+        !is_narrow,
+        emphasis(is_over && session.stage().shows_end()),
+        UserCommand::Restart,
+        hint,
+    );
     let stage = session.stage();
     let [again, pause, resume] = play_names(language);
     let (icon, name) = match stage.goes_on() {
