@@ -46,6 +46,10 @@ fn is_narrated(window: &Window, words: &str) -> bool {
 #[test]
 fn machine_is_switched_off_and_on_by_the_menu_of_its_row() {
     let mut window = open_adaptive();
+    window.get_by_label("Machine 2").click_secondary();
+    window.run_steps(3);
+    assert_eq!(window.state().selected(), Some(1), "the keys of the menu act on its machine");
+    key(&mut window, Key::Escape);
     window.get_by_label("Machine 3").click_secondary();
     press(&mut window, "Switch off");
     until(&mut window, "a loss", |window| conditions(window) == [(2, Condition::Off)]);

@@ -2,21 +2,28 @@
 
 use egui::{Align2, Popup, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::selection::Selection;
 use crate::balance::{Condition, NodeId};
 use crate::gui::session::Session;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{action_menu, popup_frame};
 use crate::language::{Language, say, word};
-use crate::view::{NodeRow, activity_word, node_name};
+use crate::view::{NodeRow, Subject, activity_word, node_name};
 
 /// Opens the menu of a machine when `response` is right-clicked.
-pub fn on(response: &Response, session: &mut Session, node: NodeId, look: Look) {
-    show(Popup::context_menu(response), response, session, node, look);
+pub fn on(response: &Response, session: &mut Session, selection: &mut Selection, node: NodeId, look: Look) {
+    show(Popup::context_menu(response), response, (session, selection), node, look);
 }
 
 /// Opens the menu of a machine when its activity in the table is clicked. The activity begins at `left` in the
 /// rectangle `row_rect`.
-pub fn on_activity(ui: &mut Ui, (left, row_rect): (f32, Rect), session: &mut Session, row: &NodeRow, look: Look) {
+pub fn on_activity(
+    ui: &mut Ui,
+    (left, row_rect): (f32, Rect),
+    (session, selection): (&mut Session, &mut Selection),
+    row: &NodeRow,
+    look: Look,
+) {
     let language = session.language();
     let rect = Rect::from_min_max(pos2(left - 0.5 * GRID, row_rect.top()), row_rect.right_bottom());
     let response = ui.interact(rect, ui.scope_id().with(("menu", row.node)), Sense::click());
@@ -32,11 +39,20 @@ pub fn on_activity(ui: &mut Ui, (left, row_rect): (f32, Rect), session: &mut Ses
         let right = pos2(rect.right() - GRID, rect.center().y);
         ui.painter().text(right, Align2::RIGHT_CENTER, "…", theme::strong(theme::BODY), look.quiet);
     }
-    show(Popup::menu(&response), &response, session, row.node, look);
+    show(Popup::menu(&response), &response, (session, selection), row.node, look);
 }
 
-fn show(popup: Popup<'_>, response: &Response, session: &mut Session, node: NodeId, look: Look) {
-    popup.frame(popup_frame(&response.ctx)).show(|ui| items(ui, session, node, look));
+fn show(
+    popup: Popup<'_>,
+    response: &Response,
+    (session, selection): (&mut Session, &mut Selection),
+    node: NodeId,
+    look: Look,
+) {
+    if popup.frame(popup_frame(&response.ctx)).show(|ui| items(ui, session, node, look)).is_some() {
+        // The keys that the menu shows are those of the selected machine.
+        selection.selected = Some(Subject::Node(node));
+    }
 }
 
 /// Returns the conditions that a machine in this condition can get, each with the text of its button.

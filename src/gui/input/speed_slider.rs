@@ -29,7 +29,7 @@ pub fn show(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session, takes_
     } else if percent != shown {
         session.change(Gesture::Speed(node), |settings| settings.set_speed(node, percent / 100.0));
     }
-    hint_above(&response, &hint(&name, before, is_recorded, language));
+    hint_above(response, &hint(&name, before, is_recorded, language));
 }
 
 /// Returns by how many steps wheel and arrow keys raise the speed; negative if they lower it.

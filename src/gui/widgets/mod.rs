@@ -268,11 +268,13 @@ fn menu_row(ui: &mut Ui, text: &str, key: &str, look: Look) -> Response {
 }
 
 /// Shows a tooltip above a widget, enabled or not, so that it covers nothing below.
-pub fn hint_above(response: &Response, text: &str) {
-    let mut tooltip = Tooltip::for_widget(response);
-    tooltip.popup = tooltip.popup.open(Tooltip::should_show_tooltip(response, true)).align(RectAlign::TOP);
+pub fn hint_above(response: Response, text: &str) -> Response {
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_description(text));
+    let mut tooltip = Tooltip::for_widget(&response);
+    tooltip.popup = tooltip.popup.open(Tooltip::should_show_tooltip(&response, true)).align(RectAlign::TOP);
     tooltip.popup = tooltip.popup.align_alternatives(&[RectAlign::TOP_START, RectAlign::TOP_END]);
     tooltip.show(|ui| ui.label(text));
+    response
 }
 
 /// Shows the content of a tooltip: a title and rows of name and value.

@@ -61,8 +61,9 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
             }
             figures(ui, &layout, row, session, look);
             controls(ui, &layout, row.node, (session, takes_wheel), look);
-            machine_menu::on(&response, session, row.node, look);
-            machine_menu::on_activity(ui, (layout.activity, layout.row), session, row, look);
+            machine_menu::on(&response, session, selection, row.node, look);
+            let place = (layout.activity, layout.row);
+            machine_menu::on_activity(ui, place, (session, selection), row, look);
         }
     });
 }
@@ -204,7 +205,7 @@ fn controls(ui: &mut Ui, layout: &RowLayout, node: NodeId, (session, takes_wheel
     } else {
         word!(language, "Pause this machine", "Pausar esta máquina")
     };
-    if response.on_hover_text(hint).clicked() && can_pause {
+    if widgets::hint_above(response, hint).clicked() && can_pause {
         session.toggle_node_pause(node);
     }
 }
