@@ -55,6 +55,20 @@ fn windows_of_every_size_show_all_widgets() {
 }
 
 #[test]
+fn buttons_of_the_bar_keep_their_places_and_words() {
+    let mut window = open(SIZE);
+    let all = |window: &Window, main| [main, "Restart", "Set up", "Accuracy"].map(|name| rect(window, name));
+    let before = all(&window, "Pause");
+    key(&mut window, Key::Space);
+    assert_eq!(all(&window, "Resume"), before);
+    window.key_press_modifiers(egui::Modifiers::SHIFT, Key::L);
+    window.run_steps(3);
+    for name in ["Precisão", "Salvar…", "Lições", "Comparar", "Ajustar"] {
+        assert!(rect(&window, name).width() > 60.0, "{name} has lost its word");
+    }
+}
+
+#[test]
 fn smallest_window_shows_all_machines() {
     for size in [[1024.0, 640.0], [800.0, 500.0]] {
         let window = open(size);

@@ -116,7 +116,8 @@ fn labelled_buttons(ui: &Ui, width: f32, session: &Session) -> usize {
     let other = text_width(ui, language.other().short_name()) + 3.0 * GRID;
     // Help, colours, undo, and the flexible buttons without a text; then the gaps of these and of the other three.
     let icons = (3 + FLEXIBLE_BUTTONS) as f32 * 4.0 * GRID + (6 + FLEXIBLE_BUTTONS) as f32 * GAP_PT;
-    let clock = large(time_words(Time::from_secs(10.0), session.stage().playback_scale(), language));
+    let stage = session.stage();
+    let clock = large(time_words(longest_time(stage), stage.playback_scale(), language));
     // The last number is the gaps round the name of the program and the clock.
     let mut room = width - large("anel".into()) - scene - recorded - clock - play - other - icons - 5.0 * GRID;
     let has_room = |name: &&str| {
@@ -273,14 +274,19 @@ fn time_state(session: &Session) -> Option<&'static str> {
     }
 }
 
+/// Returns the longest time that the clock is expected to show.
+fn longest_time(stage: &Stage) -> Time {
+    let is_over = matches!(stage.phase, Phase::Finished | Phase::Failed(_));
+    if is_over { stage.length() } else { stage.length().max(Time::from_secs(10.0)) }
+}
+
 /// Shows the time of the run. It has the width of the longest time that is to be expected, so that its neighbours stay
 /// in their places.
 fn clock(ui: &mut Ui, stage: &Stage, look: Look, language: Language) {
     let (scale, font) = (stage.playback_scale(), theme::strong(theme::LARGE));
     let layout = |time| ui.painter().layout_no_wrap(time_words(time, scale, language), font.clone(), look.text);
-    let (time, length) = (stage.lasted(), stage.length());
-    let longest = if stage.phase == Phase::Running { length.max(Time::from_secs(10.0)) } else { length };
-    let size = layout(longest).size();
+    let time = stage.lasted();
+    let size = layout(longest_time(stage)).size();
     // Without a gap it would touch the scene's name.
     if size.x + GRID < ui.available_width() {
         let text = RichText::new(time_words(time, scale, language)).font(font).color(look.text);
