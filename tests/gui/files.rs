@@ -234,7 +234,11 @@ fn recorded_run_is_replayed_and_made_live() {
     let stage = session(&window).stage();
     assert_eq!(stage.log, live);
     assert!(stage.frame.to_srgb8() == picture, "the picture differs");
-    // A recorded run cannot be changed.
+    // A recorded run cannot be changed, and says so.
+    window.get_by_label("recorded");
+    window.hover_at(window.get_by_label("Speed of machine 1").rect().center());
+    window.run_steps(4);
+    window.get_by_label("A recorded run cannot be changed. Set up, Make it live");
     drag(&mut window, "Speed of machine 1", 0.2);
     assert_eq!(session(&window).speed(0), 1.0);
     key(&mut window, Key::R);
