@@ -50,8 +50,8 @@ fn question_of_a_step_is_answered_before_the_run_goes_on() {
     );
     window.get_by_label_contains("the keys 1 to 2 answer");
     press(&mut window, "Yes");
-    window.get_by_label("Wrong: Yes");
-    window.get_by_label("Right: No");
+    window.get_by_label("Yes: wrong");
+    window.get_by_label("No: right");
     window.get_by_label_contains("step 2 of 5 · right answers: 0 of 1");
     window.get_by_label_contains("more than a quarter of the machines' time is lost");
     window.get_by_label_contains("Checked on these runs: efficiency: ");
@@ -186,12 +186,12 @@ fn result_of_all_questions_stands_at_the_end_of_a_lesson() {
     go_on(&mut window, 0);
     key(&mut window, Key::Num1);
     window.run_steps(3);
-    window.get_by_label("Right: a");
-    assert!(window.query_by_label_contains("Wrong: ").is_none());
+    window.get_by_label("a: right");
+    assert!(window.query_by_label_contains(": wrong").is_none());
     go_on(&mut window, 1);
     key(&mut window, Key::Num1);
     until(&mut window, "the end", finished);
     window.run_steps(3);
-    window.get_by_label("Wrong: a");
+    window.get_by_label("a: wrong");
     window.get_by_label("Result: 1 of 2 answers were right.");
 }

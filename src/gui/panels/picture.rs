@@ -4,8 +4,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use egui::{
-    Align2, Color32, ColorImage, Painter, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, TextureHandle,
-    TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Color32, ColorImage, Painter, PointerButton, Pos2, Rect, Response, Role, Sense, Stroke, StrokeKind,
+    TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::picture_captions;
@@ -92,6 +92,10 @@ impl PicturePanel {
         if let Some(texture) = texture {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             painter.image(texture, picture, whole, Color32::WHITE);
+        }
+        if state.done() == 0 {
+            // Where nothing is traced yet, the frame says where the picture will be.
+            painter.rect_stroke(frame, 0.0, Stroke::new(1.0, look.hairline), StrokeKind::Inside);
         }
         if let Some((_, texture)) = &self.preview {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));

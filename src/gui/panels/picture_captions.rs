@@ -6,7 +6,7 @@ use crate::balance::NodeId;
 use crate::gui::session::Session;
 use crate::gui::widgets::theme::{self, GRID};
 use crate::language::{Language, say, word};
-use crate::view::{cheapest_and_costliest, node_name};
+use crate::view::{cheapest_and_costliest, fraction, node_name};
 
 /// Seconds before the viewer for which captions are shown.
 const SHOWN_SECONDS: f64 = 12.0;
@@ -27,12 +27,13 @@ pub fn paint(painter: &Painter, frame: Rect, scale: f32, session: &Session) {
     let mut placed = vec![atom_caption(painter, (frame, scale), session, alpha, language)];
     let Some([cheap, costly]) = cheapest_and_costliest(state) else { return };
     let texts = [
-        (cheap, word!(language, "cheap atoms, fast", "átomos baratos, rápida")),
-        (costly, word!(language, "costly atoms, slower", "átomos caros, mais lenta")),
+        (cheap, word!(language, "cheap atoms", "átomos baratos")),
+        (costly, word!(language, "costly atoms", "átomos caros")),
     ];
     for (node, text) in texts {
-        let name = node_name(node);
-        let text = format!("{name}: {text}");
+        // Both run at full speed; without a word of it the costly band was taken for the slow machine.
+        let (name, speed) = (node_name(node), fraction(1.0));
+        let text = say!(language, "{name} at {speed}: {text}", "{name} a {speed}: {text}");
         let galley = painter.layout_no_wrap(text, theme::strong(theme::SMALL), Color32::WHITE);
         let size = galley.size() + vec2(1.5 * GRID, 4.0);
         let middle = pos2(frame.right() - GRID, band_middle(frame, scale, session, node));

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::time_budget::TimeBudget;
 use crate::language::{Language, say, word};
 use crate::time::Time;
-use crate::view::text::format::{atoms_words, count, duration, fraction, node_name, ratio_words};
+use crate::view::text::format::{atoms_words, count, counted, duration, fraction, node_name, ratio_words};
 
 /// Time budget of a finished run, with the run's name.
 #[derive(Clone, Copy, Debug)]
@@ -132,11 +132,12 @@ fn waiting(quick: &TimeBudget, slow: &TimeBudget, language: Language) -> String 
     };
     let moved = quick.messages.atoms_moved;
     if moved > 0 && slow.messages.atoms_moved == 0 {
-        let (atoms, times) = (atoms_words(moved, language), count(quick.messages.transfers));
+        let atoms = atoms_words(moved, language);
+        let times = counted(quick.messages.transfers, word!(language, "transfer", "transferência"), language);
         let helped = say!(
             language,
-            "In the other run machines that are done take over atoms: {atoms} in {times} transfers.",
-            "Na outra, máquinas que terminaram assumem átomos: {atoms} em {times} transferências."
+            "In the other run machines that are done take over atoms: {atoms} in {times}.",
+            "Na outra, máquinas que terminaram assumem átomos: {atoms} em {times}."
         );
         return format!("{wait} {helped}");
     }

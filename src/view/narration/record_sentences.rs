@@ -120,7 +120,7 @@ fn sent_words(flight: &Flight, state: &RunState, language: Language) -> String {
 /// Explains the number of atoms in a transfer, the latest record of `state`; `None` for work stealing.
 pub fn share_words(state: &RunState, from: NodeId, to: NodeId, atoms: u32, language: Language) -> Option<String> {
     let share = Share::of(state, from, to, atoms)?;
-    let (waiting, reason) = (atoms_words(share.waiting, language), share.reason(from, to, language));
+    let (waiting, reason) = (atoms_words(share.waiting, language), share.reason(to, language));
     let (from, verb) = (node_name(from), if share.waiting == 1 { "esperava" } else { "esperavam" });
     Some(match share.basis {
         ShareBasis::Traced { offerer, giver } => {
@@ -167,7 +167,7 @@ mod tests {
                 let (own, offered) = (f64::from(owner.done), f64::from(offerer.offered));
                 let waits = f64::from(atoms_in_queue(owner.left()) + atoms);
                 assert!((waits * offered / (offered + own) - f64::from(atoms)).abs() <= 0.5, "{words}");
-                assert!(words.contains(" had traced "), "{words}");
+                assert!(words.contains(" in proportion to atoms traced, "), "{words}");
                 shares += 1;
             }
         }

@@ -50,9 +50,9 @@ impl Share {
         Some(Self { waiting: atoms_in_queue(giver.left()) + atoms, basis })
     }
 
-    /// Gives the reason for the share of `to`, of atoms of `from`.
-    pub(crate) fn reason(self, from: NodeId, to: NodeId, language: Language) -> String {
-        let (from, to) = (node_name(from), node_name(to));
+    /// Gives the reason for the share of `to`.
+    pub(crate) fn reason(self, to: NodeId, language: Language) -> String {
+        let to = node_name(to);
         match self.basis {
             ShareBasis::Speeds => word!(language, "so both finish together", "assim terminam juntas").into(),
             ShareBasis::Half => {
@@ -62,21 +62,12 @@ impl Share {
                 say!(language, "a trial, as {to} had traced none", "um teste, pois {to} não calculou nenhum")
             }
             ShareBasis::Traced { offerer, giver } => {
-                let less = giver < offerer;
                 let [offerer, giver] = [offerer, giver].map(count);
-                if less {
-                    say!(
-                        language,
-                        "{to} had traced {offerer}; {from} only {giver}",
-                        "{to} tinha calculado {offerer}; {from} só {giver}"
-                    )
-                } else {
-                    say!(
-                        language,
-                        "{to} had traced {offerer}; {from} had traced {giver}",
-                        "{to} tinha calculado {offerer}; {from} tinha calculado {giver}"
-                    )
-                }
+                say!(
+                    language,
+                    "in proportion to atoms traced, {offerer} to {giver}",
+                    "na proporção dos átomos calculados, {offerer} para {giver}"
+                )
             }
         }
     }

@@ -48,7 +48,7 @@ impl Transfer {
             Giver::Busy => String::new(),
         };
         let (giver, offerer, some) = (node_name(self.from), node_name(self.to), self.some(language));
-        let why = share.map(|share| share.reason(self.from, self.to, language));
+        let why = share.map(|share| share.reason(self.to, language));
         let why = why.map(|why| format!(": {why}")).unwrap_or_default();
         let has_finished = if is_early {
             word!(language, "has nearly finished", "está quase pronta")

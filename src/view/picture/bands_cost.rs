@@ -5,10 +5,11 @@ use crate::view::state::atom_state::AtomState;
 use crate::view::state::run_state::RunState;
 
 /// Returns the machines whose bands have the cheapest and the costliest atoms so far, of the machines at full speed.
-/// `None` if a run has no equal bands, if too few atoms are traced, or if the bands differ little.
+/// `None` if a run has no equal bands, if too few atoms of any of these bands are traced, or if the bands differ little.
 pub fn cheapest_and_costliest(state: &RunState) -> Option<[NodeId; 2]> {
-    /// Fewer atoms of a band say little about it.
+    /// Fewer atoms of a band say little about it: the answer would soon change.
     const MIN_ATOMS: usize = 20;
+    const MIN_SHARE: f64 = 0.06;
     /// Least ratio of the costs that is worth a word.
     const MIN_RATIO: f64 = 1.5;
     let has_bands = state.scheduler().is_ring() || *state.scheduler() == Scheduler::Protocol(Strategy::Static);
@@ -16,18 +17,22 @@ pub fn cheapest_and_costliest(state: &RunState) -> Option<[NodeId; 2]> {
         return None;
     }
     let bands = state.division().bands(state.nodes().len());
-    let mean = |(node, band): (NodeId, std::ops::Range<u32>)| {
-        let of = &state.nodes()[usize::from(node)];
+    let mean = |(_, band): &(NodeId, std::ops::Range<u32>)| {
         let atoms = state.atom_states().get(band.start as usize..band.end as usize)?;
         let cost = |atom: &AtomState| match atom {
             AtomState::Traced { cost, .. } => Some(f64::from(*cost)),
             _ => None,
         };
         let costs: Vec<f64> = atoms.iter().filter_map(cost).collect();
-        let is_at_full_speed = of.speed > 0.995 && of.runs();
-        (is_at_full_speed && costs.len() >= MIN_ATOMS).then(|| (node, costs.iter().sum::<f64>() / costs.len() as f64))
+        let is_enough = costs.len() >= MIN_ATOMS.max((MIN_SHARE * band.len() as f64) as usize);
+        is_enough.then(|| costs.iter().sum::<f64>() / costs.len() as f64)
     };
-    let means: Vec<(NodeId, f64)> = (0..).zip(bands).filter_map(mean).collect();
+    let is_at_full_speed = |(node, _): &(NodeId, std::ops::Range<u32>)| {
+        let of = &state.nodes()[usize::from(*node)];
+        of.speed > 0.995 && of.runs()
+    };
+    let fast = (0..).zip(bands).filter(is_at_full_speed);
+    let means = fast.map(|band| Some((band.0, mean(&band)?))).collect::<Option<Vec<(NodeId, f64)>>>()?;
     let by_cost = |one: &&(NodeId, f64), other: &&(NodeId, f64)| one.1.total_cmp(&other.1);
     let (cheapest, costliest) = (means.iter().min_by(by_cost)?, means.iter().max_by(by_cost)?);
     (costliest.1 > MIN_RATIO * cheapest.1).then_some([cheapest.0, costliest.0])

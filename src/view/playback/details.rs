@@ -204,7 +204,9 @@ mod tests {
         let atoms: usize = highlight.atoms.iter().map(Range::len).sum();
         assert!(highlight.nodes.len() == 2 && title.starts_with(&format!("{atoms} atoms from ")), "{title}");
         assert!(
-            more.contains(" that waited with machine ") && more.contains(" had traced ") && more.contains("sent at "),
+            more.contains(" that waited with machine ")
+                && more.contains(" in proportion to atoms traced, ")
+                && more.contains("sent at "),
             "{more}"
         );
     }

@@ -73,6 +73,8 @@ enum Sign {
     Parcel,
     /// Two squares: the pipe.
     Pipe,
+    /// Three dots on a spoke: results.
+    Results,
     /// A filled disc: a request.
     Request,
     /// A box: the answer to a request.
@@ -81,10 +83,16 @@ enum Sign {
 
 /// Returns the signs of a run, with their meanings.
 fn key(layout: &RingLayout, state: &RunState, language: Language) -> Vec<(Sign, &'static str)> {
-    let mut key = vec![(Sign::Arc, word!(language, "atoms left", "átomos que restam"))];
+    let mut key = vec![
+        (Sign::Arc, word!(language, "atoms left", "átomos que restam")),
+        (Sign::Results, word!(language, "traced atoms, to the parent", "átomos calculados, para o pai")),
+    ];
     if state.scheduler().is_ring() {
         if layout.node_radius >= MIN_PIPE_RADIUS_PX {
-            key.push((Sign::Pipe, word!(language, "last atoms, which it keeps", "últimos átomos, que ficam com ela")));
+            key.push((
+                Sign::Pipe,
+                word!(language, "last two atoms, which it keeps", "dois últimos átomos, que ficam com ela"),
+            ));
         }
         key.extend([
             (Sign::Offer, word!(language, "offer of help", "oferta de ajuda")),
@@ -117,6 +125,9 @@ impl Sign {
                 line(vec![[x, y], [x + 7.0, y]]),
                 line(vec![[x + 4.0, y - 3.0], [x + 7.0, y], [x + 4.0, y + 3.0]]),
             ]),
+            Self::Results => {
+                marks.extend([-5.0, 0.0, 5.0].map(|dx| Mark::Disc { centre: [x + dx, y], radius: 1.5, ink }))
+            }
             Self::Pipe => marks.extend([square(x - 3.5, [2.5; 2]), square(x + 3.5, [2.5; 2])]),
             Self::Request => marks.extend([
                 disc(6.0),
@@ -163,7 +174,7 @@ mod tests {
                     assert!(left >= 0.0 && left + width <= size[0] && y - half >= 0.0 && y + half <= size[1] + 0.01);
                     lines += 1;
                 }
-                assert!(lines >= 4 || size[0] < 700.0, "{lines} lines beside {nodes} machines in {size:?}");
+                assert!(lines >= 3 || size[0] < 700.0, "{lines} lines beside {nodes} machines in {size:?}");
             }
         }
     }

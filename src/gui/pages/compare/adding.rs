@@ -27,7 +27,7 @@ pub fn strategies(ui: &mut Ui, strategies: &[Strategy], look: Look, language: La
         ui,
         None,
         word!(language, "Add a run", "Acrescentar uma execução"),
-        Some(word!(language, "Add …", "Acrescentar …")),
+        Some(word!(language, "Add…", "Acrescentar…")),
         Emphasis::Quiet,
     );
     let changes = strategies.iter().map(|strategy| (Change::Strategy(strategy.clone()), false)).collect();
@@ -47,7 +47,7 @@ pub fn changes(
 ) -> Option<Change> {
     let name = say!(language, "Add {letter} with one change", "Acrescentar {letter} com uma mudança");
     let (icon, text) =
-        if has_room { (None, Some(word!(language, "Change …", "Mudar …"))) } else { (Some(Icon::Sliders), None) };
+        if has_room { (None, Some(word!(language, "Change…", "Mudar…"))) } else { (Some(Icon::Sliders), None) };
     let opener = named_button(ui, icon, &name, text, Emphasis::Quiet).on_hover_text(&name);
     let nodes = trial.header.speeds.len();
     menu(&opener, |ui| {

@@ -94,9 +94,9 @@ impl Mark {
 fn marks(question: &Question, chosen: usize, language: Language) -> Vec<Mark> {
     let answer = |index: usize| question.answers[index].in_language(language);
     let (wrong, right) = (answer(chosen), answer(question.right));
-    let mut marks = vec![Mark { is_right: true, text: say!(language, "Right: {right}", "Certo: {right}") }];
+    let mut marks = vec![Mark { is_right: true, text: say!(language, "{right}: right", "{right}: certo") }];
     if chosen != question.right {
-        marks.insert(0, Mark { is_right: false, text: say!(language, "Wrong: {wrong}", "Errado: {wrong}") });
+        marks.insert(0, Mark { is_right: false, text: say!(language, "{wrong}: wrong", "{wrong}: errado") });
     }
     marks
 }

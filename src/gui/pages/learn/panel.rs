@@ -159,8 +159,10 @@ fn buttons(ui: &mut Ui, progress: &LessonProgress, language: Language) -> Option
     let width =
         [false, true].map(|is_over| text_width(ui, next_text(is_over, language))).into_iter().fold(0.0, f32::max);
     let next = next_text(progress.is_over(), language);
+    // While a question waits its answers are the main thing.
+    let emphasis = if progress.waits() { Emphasis::Quiet } else { Emphasis::Primary };
     ui.add_enabled_ui(!progress.waits(), |ui| {
-        let next = button_with_room(ui, Icon::Next, next, width, Emphasis::Primary);
+        let next = button_with_room(ui, Icon::Next, next, width, emphasis);
         if next.on_hover_text("Page ↓").clicked() {
             action = Some(LessonAction::Next);
         }
