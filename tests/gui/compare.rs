@@ -105,6 +105,32 @@ fn fork_starts_at_the_shown_time_and_a_run_without_end_says_so() {
 }
 
 #[test]
+fn letter_chooses_a_run_wheel_zooms_and_one_table_has_all_runs() {
+    let mut window = open_comparison();
+    press(&mut window, "Choose B");
+    window.get_by_label("C and B: why they differ");
+    let time = window.get_by_label("time").value().unwrap_or_default();
+    assert_eq!(time.split("; ").count(), 3, "{time}");
+    assert_eq!(times(&window).len(), 1, "one clock: {:?}", times(&window));
+    let lanes = |window: &Window| {
+        let lanes = window.get_by_label("Lanes of all runs");
+        (lanes.rect(), lanes.value().unwrap_or_default())
+    };
+    let (rect, whole) = lanes(&window);
+    window.hover_at(rect.center());
+    window.step();
+    wheel(&mut window, 5.0);
+    window.run_steps(10);
+    assert_ne!(lanes(&window).1, whole);
+    let shown = times(&window);
+    window.drag_at(rect.lerp_inside(egui::vec2(0.4, 0.5)));
+    window.step();
+    window.drop_at(rect.lerp_inside(egui::vec2(0.4, 0.5)));
+    window.run_steps(3);
+    assert_ne!(times(&window), shown, "a click shows its time");
+}
+
+#[test]
 fn every_tab_has_words() {
     let mut window = open_comparison();
     let tabs = |window: &Window| window.get_by_label("Efficiency").rect();

@@ -184,6 +184,27 @@ pub fn drag(window: &mut Window, name: &str, to: f32) {
     window.run_steps(3);
 }
 
+/// Drags the slider of a machine's speed to this per cent, and returns where it is, in points.
+pub fn drag_speed(window: &mut Window, machine: usize, percent: u32) -> f32 {
+    // The scale is logarithmic; its left end is 0 and stands for 0.4.
+    let share = (f64::from(percent) / 0.4).ln() / 250.0_f64.ln();
+    let name = format!("Speed of machine {machine}");
+    drag(window, &name, share as f32);
+    window.get_by_role_and_label(Role::Slider, &name).rect().width() * share as f32
+}
+
+/// Turns the wheel up by this number of lines.
+pub fn wheel(window: &mut Window, lines: f32) {
+    window.event(Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Line,
+        delta: egui::vec2(0.0, lines),
+        source: egui::MouseWheelSource::Wheel,
+        phase: egui::TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(2);
+}
+
 /// The time until the next repaint.
 pub fn repaint_delay(window: &Window) -> Duration {
     window.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay

@@ -78,6 +78,18 @@ fn escape_closes_the_inner_of_two_and_then_the_outer() {
 }
 
 #[test]
+fn letters_are_keys_again_when_the_field_of_the_scenes_is_left() {
+    let mut window = open(SIZE);
+    key(&mut window, Key::O);
+    assert!(window.ctx.text_edit_focused());
+    key(&mut window, Key::E);
+    assert!(!window.state().open_stack().contains(&Closable::Setup), "a letter of the path");
+    key(&mut window, Key::Escape);
+    key(&mut window, Key::K);
+    assert_eq!(window.state().open_stack(), [Closable::Compare]);
+}
+
+#[test]
 fn escape_closes_a_menu_and_not_its_page() {
     let mut window = open(SIZE);
     key(&mut window, Key::K);

@@ -46,6 +46,10 @@ fn is_narrated(window: &Window, words: &str) -> bool {
 #[test]
 fn machine_is_switched_off_and_on_by_the_menu_of_its_row() {
     let mut window = open_adaptive();
+    window.get_by_label("Machine 2").click_secondary();
+    window.run_steps(3);
+    assert_eq!(window.state().selected(), Some(1), "the keys of the menu act on its machine");
+    key(&mut window, Key::Escape);
     window.get_by_label("Machine 3").click_secondary();
     press(&mut window, "Switch off");
     until(&mut window, "a loss", |window| conditions(window) == [(2, Condition::Off)]);
@@ -69,7 +73,7 @@ fn spare_machine_joins() {
     press(&mut window, "Join");
     until(&mut window, "its work", |window| session(window).stage().state().nodes()[8].done > 0);
     assert!(is_narrated(&window, "Machine 9 joins"));
-    drag(&mut window, "Speed of machine 9", 0.5);
+    drag_speed(&mut window, 9, 50);
     assert_eq!(session(&window).speed(8), 0.5);
 }
 

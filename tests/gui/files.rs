@@ -156,6 +156,16 @@ fn changed_file_is_offered_for_reload_and_a_removed_one_is_reported() {
     until(&mut window, "offer to reload", |window| notice(window) == "ball.ron has changed on disk");
     press(&mut window, "Reload");
     until(&mut window, "the new text", |window| session(window).header().scene_text.contains("0.25"));
+    std::fs::write(&path, scene("radius: 0.5")).expect("a file");
+    until(&mut window, "offer to reload", |window| notice(window) == "ball.ron has changed on disk");
+    press(&mut window, "Always");
+    until(&mut window, "the next text", |window| session(window).header().scene_text.contains("0.5"));
+    std::fs::write(&path, scene("radius: 0.75")).expect("a file");
+    until(&mut window, "the last text", |window| session(window).header().scene_text.contains("0.75"));
+    press(&mut window, "Set up");
+    window.get_by_label("Reload a changed scene at once").click();
+    window.run_steps(3);
+    assert!(!session(&window).always_reloads());
     std::thread::sleep(std::time::Duration::from_millis(100));
     std::fs::remove_file(&path).expect("a file");
     until(&mut window, "notice", |window| notice(window).contains("ball.ron was deleted"));
@@ -224,7 +234,11 @@ fn recorded_run_is_replayed_and_made_live() {
     let stage = session(&window).stage();
     assert_eq!(stage.log, live);
     assert!(stage.frame.to_srgb8() == picture, "the picture differs");
-    // A recorded run cannot be changed.
+    // A recorded run cannot be changed, and says so.
+    window.get_by_label("recorded");
+    window.hover_at(window.get_by_label("Speed of machine 1").rect().center());
+    window.run_steps(4);
+    window.get_by_label("A recorded run cannot be changed. Set up, Make it live");
     drag(&mut window, "Speed of machine 1", 0.2);
     assert_eq!(session(&window).speed(0), 1.0);
     key(&mut window, Key::R);

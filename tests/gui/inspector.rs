@@ -65,6 +65,7 @@ fn click_shows_the_pixel_arrows_move_and_esc_closes() {
     }
     key(&mut window, Key::Escape);
     assert!(session(&window).inspected_pixel().is_none() && window.query_by_label("The ring").is_some());
+    assert_eq!(window.state().selection(), None, "the atom was selected with its pixel");
     key(&mut window, Key::ArrowRight);
     assert!(session(&window).inspected_pixel().is_none(), "arrows do not open the inspector");
 }
@@ -110,6 +111,11 @@ fn chosen_ray_has_its_own_terms_and_the_text_can_be_copied() {
     wait_for_pixel(&mut window);
     assert_eq!(inspected(&window).chosen.ray, 2);
     assert_ne!((value(&window, "Terms of the equation"), value(&window, "Spans along the ray")), (before, spans));
+    // The next pixel is shown with the same ray, if it has it.
+    key(&mut window, Key::ArrowRight);
+    wait_for_pixel(&mut window);
+    let has_it = inspected(&window).sample().rays.len() > 2;
+    assert_eq!(inspected(&window).chosen.ray, if has_it { 2 } else { 0 });
     window.get_by_label("Copy as text").click();
     window.step();
     let copied = window.output().platform_output.commands.iter().find_map(|command| match command {

@@ -20,8 +20,17 @@ fn windows_of_every_size_show_all_widgets() {
     for size in [[1280.0, 800.0], [1920.0, 1080.0], [1024.0, 640.0], [800.0, 500.0], [683.0, 427.0]] {
         let window = open(size);
         let buttons = ["Scenes", "Pause", "Restart", "Undo", "Set up", "Save…", "Dark or light", "Help"];
-        let time =
-            ["Step back", "Unit of a step", "Step forward", "Slower", "Faster", "The run's time", "Live", "Find"];
+        let time = [
+            "Beginning",
+            "Step back",
+            "Unit of a step",
+            "Step forward",
+            "Slower",
+            "Faster",
+            "The run's time",
+            "Live",
+            "Find",
+        ];
         // A small picture has space for the layer's name only.
         let layer = if size[0] < 1000.0 { "Who traced it" } else { "Render or layer" };
         let others = [layer, "Speed of machine 1", "Pause machine 1"];
@@ -42,6 +51,20 @@ fn windows_of_every_size_show_all_widgets() {
             let rect = rect(&window, name);
             assert!(whole(size).contains_rect(rect) && rect.area() > 1000.0, "{name} at {size:?}: {rect:?}");
         }
+    }
+}
+
+#[test]
+fn buttons_of_the_bar_keep_their_places_and_words() {
+    let mut window = open(SIZE);
+    let all = |window: &Window, main| [main, "Restart", "Set up", "Accuracy"].map(|name| rect(window, name));
+    let before = all(&window, "Pause");
+    key(&mut window, Key::Space);
+    assert_eq!(all(&window, "Resume"), before);
+    window.key_press_modifiers(egui::Modifiers::SHIFT, Key::L);
+    window.run_steps(3);
+    for name in ["Precisão", "Salvar…", "Lições", "Comparar", "Ajustar"] {
+        assert!(rect(&window, name).width() > 60.0, "{name} has lost its word");
     }
 }
 

@@ -4,6 +4,7 @@ use anel::gui::Phase;
 use anel::record::RecordKind;
 use anel::time::Time;
 use egui::Key;
+use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
@@ -17,11 +18,42 @@ fn slider_changes_the_speed_while_it_is_dragged() {
     window.hover_at(slider.center());
     until(&mut window, "a record of the new speed", |window| !speeds_set(window).is_empty());
     let (node, speed) = speeds_set(&window)[0];
-    assert!(node == 0 && speed > 0.4 && speed < 0.6, "{node} {speed}");
+    assert!(node == 0 && speed > 0.03 && speed < 0.15, "{node} {speed}");
     window.hover_at(slider.left_center());
     window.step();
     window.drop_at(slider.left_center());
     until(&mut window, "a record of speed 0", |window| speeds_set(window).last() == Some(&(0, 0.0)));
+}
+
+#[test]
+fn slider_sets_low_speeds_and_moves_by_steps() {
+    let mut window = open(SIZE);
+    fn slider(window: &Window) -> egui_kittest::Node<'_> {
+        window.get_by_role_and_label(Role::Slider, "Speed of machine 8")
+    }
+    let (whole, mut last) = (slider(&window).rect(), 0.0);
+    for percent in [1, 2, 5, 10, 20, 50, 100] {
+        let at = drag_speed(&mut window, 8, percent);
+        assert_eq!(session(&window).speed(7), f64::from(percent) / 100.0);
+        assert!(at - last >= 0.1 * whole.width(), "{percent} % is {} px right of the one before", at - last);
+        last = at;
+    }
+    drag(&mut window, "Speed of machine 8", 0.0);
+    assert_eq!(session(&window).speed(7), 0.0);
+    // The wheel over the slider, and the arrow keys, which it has after the drag.
+    window.hover_at(slider(&window).rect().center());
+    window.step();
+    for (lines, speed) in [(1.0, 0.01), (2.0, 0.05), (-1.0, 0.02)] {
+        wheel(&mut window, lines);
+        assert_eq!(session(&window).speed(7), speed);
+    }
+    slider(&window).focus();
+    window.run_steps(2);
+    for (arrow, speed) in [(Key::ArrowRight, 0.05), (Key::ArrowRight, 0.1), (Key::ArrowLeft, 0.05)] {
+        key(&mut window, arrow);
+        assert_eq!(session(&window).speed(7), speed);
+    }
+    assert!(session(&window).stage().is_live(), "the arrows are the slider's");
 }
 
 #[test]
@@ -39,7 +71,7 @@ fn speed_set_during_a_pause_applies_after_it() {
     let mut window = open(SIZE);
     until(&mut window, "a traced atom", |window| done(window) > 5);
     key(&mut window, Key::Space);
-    drag(&mut window, "Speed of machine 8", 0.5);
+    drag_speed(&mut window, 8, 50);
     assert_eq!(session(&window).speed(7), 0.5);
     press(&mut window, "Resume");
     until(&mut window, "a record", |window| speeds_set(window).last() == Some(&(7, 0.5)));
@@ -93,11 +125,11 @@ fn machine_is_selected_and_changed_with_keys() {
     assert_eq!(window.state().selected(), Some(7));
     key(&mut window, Key::Plus);
     assert_eq!(session(&window).speed(7), 0.2);
-    for speed in [0.1, 0.05, 0.01, 0.0, 0.0] {
+    for speed in [0.1, 0.05, 0.02, 0.01, 0.0, 0.0] {
         key(&mut window, Key::Minus);
         assert_eq!(session(&window).speed(7), speed);
     }
-    until(&mut window, "records", |window| speeds_set(window).len() == 5);
+    until(&mut window, "records", |window| speeds_set(window).len() == 6);
     key(&mut window, Key::P);
     assert!(session(&window).is_node_paused(7));
     key(&mut window, Key::Num9);
@@ -128,8 +160,8 @@ fn click_on_the_ring_selects_a_machine() {
 #[test]
 fn change_of_speed_is_undone_and_redone() {
     let mut window = open(SIZE);
-    drag(&mut window, "Speed of machine 1", 0.3);
-    drag(&mut window, "Speed of machine 1", 0.6);
+    drag_speed(&mut window, 1, 30);
+    drag_speed(&mut window, 1, 60);
     let second = session(&window).speed(0);
     ctrl(&mut window, Key::Z);
     let first = session(&window).speed(0);

@@ -5,6 +5,7 @@ use egui::{Context, Theme, ViewportCommand};
 use super::App;
 use crate::gui::input::keys::UserCommand;
 use crate::gui::pages::help::HelpTab;
+use crate::gui::settings::speed_steps::next_speed;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::theme::Look;
 use crate::language::{say, word};
@@ -189,12 +190,7 @@ impl App {
             return self.session.toggle_condition(node, condition);
         }
         let now = self.session.speed(node);
-        // Tenths, and low speeds that make a machine the bottleneck.
-        let mut steps = [0.0, 0.01, 0.05].into_iter().chain((1..=10).map(|tenth| f64::from(tenth) / 10.0));
-        let speed = match command {
-            UserCommand::Faster => steps.find(|&step| step > now + 0.001).unwrap_or(1.0),
-            _ => steps.take_while(|&step| step < now - 0.001).last().unwrap_or(0.0),
-        };
+        let speed = next_speed(now, command == UserCommand::Faster);
         self.session.change(Gesture::Once, |settings| settings.set_speed(node, speed));
     }
 }

@@ -3,6 +3,7 @@
 use egui::{CursorIcon, Rect, Sense, Stroke, Ui, WidgetInfo, pos2};
 
 use crate::gui::panels::picture;
+use crate::gui::widgets::hint_above;
 use crate::gui::widgets::theme::{GRID, Look};
 use crate::language::{Language, word};
 
@@ -45,11 +46,12 @@ impl Split {
         let (middle, ink) = (below.center().x, if is_active { look.text } else { look.quiet.gamma_multiply(0.6) });
         let grip = [-0.5, 0.5].map(|side| pos2(middle + side * GRIP_WIDTH_PT, below.top()));
         ui.painter().line_segment(grip, Stroke::new(3.0, ink));
-        response.on_hover_text(word!(
+        let hint = word!(
             language,
             "Drag: larger or smaller. Double click: as usual",
             "Arrastar: maior ou menor. Duplo clique: como sempre"
-        ));
+        );
+        hint_above(response, hint);
     }
 }
 

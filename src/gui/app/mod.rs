@@ -93,6 +93,8 @@ struct StoredState {
     language: Option<Language>,
     projector: bool,
     film: FilmOptions,
+    /// Whether a changed scene is reloaded without a question.
+    always_reload: bool,
 }
 
 /// Key of [`StoredState`] in eframe's storage.
@@ -111,6 +113,7 @@ impl App {
         let settings = if stored.settings.check(language).is_ok() { stored.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
         session.set_language(language);
+        session.set_always_reload(stored.always_reload);
         session.set_recent(stored.recent.iter().map(|path| stored_path::read(path)).collect());
         match (launch.opening, &stored.scene) {
             (Some(opening), _) => session.show(opening),
@@ -402,8 +405,8 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let language = self.session.language();
         zoom::update(ui.ctx(), self.projector);
-        // While a path field is open, letters belong to it, even if it does not have the focus.
-        let is_typing = ui.ctx().text_edit_focused() || self.save_sheet.is_open() || self.gallery.is_open();
+        // While the save sheet is open, letters belong to its field, even if it does not have the focus.
+        let is_typing = ui.ctx().text_edit_focused() || self.save_sheet.is_open();
         for command in keys::pressed(ui.ctx(), is_typing) {
             self.handle_command(command, ui.ctx());
         }
@@ -438,6 +441,7 @@ impl eframe::App for App {
             language: Some(self.session.language()),
             projector: self.projector,
             film: self.save_sheet.film(),
+            always_reload: self.session.always_reloads(),
         };
         eframe::set_value(storage, STORAGE_KEY, &stored);
     }

@@ -26,6 +26,10 @@ impl App {
         match notice::show(ui, area, &self.session, self.lists_exports()) {
             Some(NoticeAction::Close) => self.session.close_notice(),
             Some(NoticeAction::Reload) => self.session.reload(),
+            Some(NoticeAction::AlwaysReload) => {
+                self.session.set_always_reload(true);
+                self.session.reload();
+            }
             Some(NoticeAction::CancelExport(job)) => self.session.cancel_export(job),
             Some(NoticeAction::CancelLoading) => self.session.cancel_loading(),
             None => {}

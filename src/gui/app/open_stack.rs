@@ -4,6 +4,7 @@ use egui::{Context, Popup};
 
 use super::App;
 use crate::gui::session::NoticeKind;
+use crate::view::Subject;
 
 /// Something that is open and that Esc closes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,6 +77,10 @@ impl App {
     /// Records what was opened and closed in this frame, and whether the user types.
     pub(super) fn update_open_stack(&mut self, ctx: &Context) {
         let mut open = std::mem::take(&mut self.open_stack.open);
+        // The atom was selected together with its pixel.
+        if open.contains(&Closable::Inspector) && !self.is_open(Closable::Inspector) {
+            self.selection.selected.take_if(|selected| matches!(selected, Subject::Atom(_)));
+        }
         open.retain(|&closable| self.is_open(closable));
         for closable in Closable::ALL {
             if self.is_open(closable) && !open.contains(&closable) {

@@ -2,22 +2,29 @@
 
 use egui::{Align2, Popup, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
+use super::selection::Selection;
 use crate::balance::{Condition, NodeId};
 use crate::gui::session::Session;
 use crate::gui::widgets::explained::explained;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{action_menu, popup_frame};
 use crate::language::{Language, say, word};
-use crate::view::{Definition, NodeRow, activity_word, node_name};
+use crate::view::{Definition, NodeRow, Subject, activity_word, node_name};
 
 /// Opens the menu of a machine when `response` is right-clicked.
-pub fn on(response: &Response, session: &mut Session, node: NodeId, look: Look) {
-    show(Popup::context_menu(response), response, session, node, look);
+pub fn on(response: &Response, session: &mut Session, selection: &mut Selection, node: NodeId, look: Look) {
+    show(Popup::context_menu(response), response, (session, selection), node, look);
 }
 
 /// Opens the menu of a machine when its activity in the table is clicked. The activity begins at `left` in the
 /// rectangle `row_rect`.
-pub fn on_activity(ui: &mut Ui, (left, row_rect): (f32, Rect), session: &mut Session, row: &NodeRow, look: Look) {
+pub fn on_activity(
+    ui: &mut Ui,
+    (left, row_rect): (f32, Rect),
+    (session, selection): (&mut Session, &mut Selection),
+    row: &NodeRow,
+    look: Look,
+) {
     let language = session.language();
     let rect = Rect::from_min_max(pos2(left - 0.5 * GRID, row_rect.top()), row_rect.right_bottom());
     let response = ui.interact(rect, ui.scope_id().with(("menu", row.node)), Sense::click());
@@ -34,11 +41,20 @@ pub fn on_activity(ui: &mut Ui, (left, row_rect): (f32, Rect), session: &mut Ses
         let right = pos2(rect.right() - GRID, rect.center().y);
         ui.painter().text(right, Align2::RIGHT_CENTER, "…", theme::strong(theme::BODY), look.quiet);
     }
-    show(Popup::menu(&response), &response, session, row.node, look);
+    show(Popup::menu(&response), &response, (session, selection), row.node, look);
 }
 
-fn show(popup: Popup<'_>, response: &Response, session: &mut Session, node: NodeId, look: Look) {
-    popup.frame(popup_frame(&response.ctx)).show(|ui| items(ui, session, node, look));
+fn show(
+    popup: Popup<'_>,
+    response: &Response,
+    (session, selection): (&mut Session, &mut Selection),
+    node: NodeId,
+    look: Look,
+) {
+    if popup.frame(popup_frame(&response.ctx)).show(|ui| items(ui, session, node, look)).is_some() {
+        // The keys that the menu shows are those of the selected machine.
+        selection.selected = Some(Subject::Node(node));
+    }
 }
 
 /// Returns the conditions that a machine in this condition can get, each with the text of its button.
@@ -54,6 +70,17 @@ fn possible_conditions(condition: Condition, is_spare: bool, language: Language)
         Condition::Well => vec![off, hung, cut],
         Condition::Hung => vec![(well, word!(language, "Resume", "Retomar")), off, cut],
         Condition::CutOff => vec![(well, word!(language, "Reconnect", "Reconectar")), off, hung],
+    }
+}
+
+/// Returns the key that changes the `present` condition of a selected machine to this one. The key of a condition also
+/// ends it.
+fn key(condition: Condition, present: Condition) -> &'static str {
+    match if condition == Condition::Well { present } else { condition } {
+        Condition::Off => "X",
+        Condition::Hung => "H",
+        Condition::CutOff => "U",
+        Condition::Well => "",
     }
 }
 
@@ -74,7 +101,9 @@ fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
         )
     };
     let conditions = possible_conditions(session.condition(node), session.is_spare(node), language);
-    let conditions = conditions.into_iter().map(|(condition, text)| (condition, text.to_owned()));
+    let present = session.condition(node);
+    let conditions =
+        conditions.into_iter().map(|(condition, text)| (condition, text.to_owned(), key(condition, present)));
     let title = say!(language, "Machine {name}", "Máquina {name}");
     if let Some(condition) = action_menu(ui, &title, conditions, (session.can_fail(), hint), look, language) {
         session.set_condition(node, condition);

@@ -36,7 +36,7 @@ pub fn on(response: &Response, session: &mut Session, message: &MessageInMenu, l
 
 fn items(ui: &mut Ui, session: &mut Session, MessageInMenu { text, parties }: &MessageInMenu, look: Look) {
     let language = session.language();
-    let delays = DELAYS_S.map(|seconds| (seconds, say!(language, "Delay by {seconds} s", "Atrasar {seconds} s")));
+    let delays = DELAYS_S.map(|seconds| (seconds, say!(language, "Delay by {seconds} s", "Atrasar {seconds} s"), ""));
     let hint = word!(
         language,
         "All messages from this sender to this receiver wait and then arrive in order",

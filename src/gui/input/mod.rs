@@ -5,4 +5,5 @@ pub mod machine_menu;
 pub mod message_menu;
 pub mod rate_menu;
 pub mod selection;
+pub mod speed_slider;
 pub mod zoom;

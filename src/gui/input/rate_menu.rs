@@ -5,7 +5,7 @@ use egui::{Popup, PopupCloseBehavior, Response, Role, Sense, Ui, WidgetInfo, pos
 use super::keys::UserCommand;
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, popup_frame};
+use crate::gui::widgets::{Emphasis, button, hint_above, popup_frame};
 use crate::language::{Language, say, word};
 use crate::view::{RATES, rate_of_time_words, short_rate_words};
 
@@ -13,7 +13,7 @@ use crate::view::{RATES, rate_of_time_words, short_rate_words};
 pub fn show(ui: &mut Ui, rate: f64, language: Language) -> Option<UserCommand> {
     let (mut pressed, look) = (None, Look::of(ui.ctx()));
     let slower = button(ui, Some(Icon::Slower), word!(language, "Slower", "Mais lento"), false, Emphasis::Quiet);
-    if slower.on_hover_text(word!(language, "Slower time (,)", "Tempo mais lento (,)")).clicked() {
+    if hint_above(slower, word!(language, "Slower time (,)", "Tempo mais lento (,)")).clicked() {
         pressed = Some(UserCommand::Rate(false));
     }
     let (rect, response) = ui.allocate_exact_size(vec2(11.5 * GRID, 4.0 * GRID), Sense::click());
@@ -27,13 +27,10 @@ pub fn show(ui: &mut Ui, rate: f64, language: Language) -> Option<UserCommand> {
     let galley = ui.painter().layout_no_wrap(short_rate_words(rate, language), theme::regular(theme::SMALL), colour);
     ui.painter().galley(rect.center() - galley.size() / 2.0, galley, colour);
     pressed = pressed.or(rates(&response, rate, look, language));
-    response.on_hover_text(say!(
-        language,
-        "{name}. Press to choose another rate",
-        "{name}. Pressione para escolher outro ritmo"
-    ));
+    let hint = say!(language, "{name}. Press to choose another rate", "{name}. Pressione para escolher outro ritmo");
+    hint_above(response, &hint);
     let faster = button(ui, Some(Icon::Faster), word!(language, "Faster", "Mais rápido"), false, Emphasis::Quiet);
-    if faster.on_hover_text(word!(language, "Faster time (.)", "Tempo mais rápido (.)")).clicked() {
+    if hint_above(faster, word!(language, "Faster time (.)", "Tempo mais rápido (.)")).clicked() {
         pressed = Some(UserCommand::Rate(true));
     }
     pressed

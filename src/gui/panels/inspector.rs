@@ -134,6 +134,18 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language)
             action = sample_buttons(ui, chosen.sample, samples, inks.look, language);
         }
     });
+    // Above the tree, where a deep one does not push it out of sight.
+    if inspected.sample().rays.len() > 1 {
+        quiet(
+            ui,
+            word!(
+                language,
+                "P: from the eye; R: reflected (dashed); T: transmitted. A broad line counts more. Click a ray.",
+                "P: do observador; R: refletido (tracejado); T: transmitido. Uma linha larga conta mais. \
+                Clique num raio."
+            ),
+        );
+    }
     let tree = inspected.ray_tree(ui.available_width(), language);
     let names: Vec<_> = tree.spots.iter().map(|spot| spot.name.clone()).collect();
     let name = word!(language, "Tree of rays", "Árvore de raios");
@@ -150,17 +162,6 @@ fn rays(ui: &mut Ui, inspected: &Inspected, inks: &Inks<'_>, language: Language)
         if response.on_hover_text(&spot.name).clicked() {
             action = Some(InspectorAction::Choose(ChosenRay { ray: spot.ray, ..chosen }));
         }
-    }
-    if inspected.sample().rays.len() > 1 {
-        quiet(
-            ui,
-            word!(
-                language,
-                "P: from the eye; R: reflected (dashed); T: transmitted. A broad line counts more. Click a ray.",
-                "P: do observador; R: refletido (tracejado); T: transmitido. Uma linha larga conta mais. \
-                Clique num raio."
-            ),
-        );
     }
     action
 }

@@ -15,6 +15,8 @@ pub enum NoticeAction {
     Close,
     /// Reads the file of the scene again.
     Reload,
+    /// Reads the file of the scene again, now and whenever it changes.
+    AlwaysReload,
     /// Cancels the file of this job.
     CancelExport(u64),
     /// Cancels what is being loaded.
@@ -98,7 +100,7 @@ fn message<T>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> T) -> T {
 
 /// Returns the width of a notice's text beside its buttons.
 fn text_width(width: f32, notice: &Notice, waiting: usize) -> f32 {
-    let buttons = if notice.kind == NoticeKind::Changed { 17.0 } else { 5.0 };
+    let buttons = if notice.kind == NoticeKind::Changed { 27.0 } else { 5.0 };
     let others = if waiting > 0 { 12.0 } else { 0.0 };
     width.min(MAX_WIDTH_PT) - (buttons + others) * GRID - 2.0 * MARGIN_PT
 }
@@ -115,10 +117,19 @@ fn notice_row(ui: &mut Ui, notice: &Notice, waiting: usize, width: f32, language
         quiet(ui, say!(language, "and {waiting} more", "e mais {waiting}"));
     }
     let name = word!(language, "Reload", "Recarregar");
-    let reload = notice.kind == NoticeKind::Changed && button(ui, None, name, true, Emphasis::Primary).clicked();
+    let is_change = notice.kind == NoticeKind::Changed;
+    let reload = is_change && button(ui, None, name, true, Emphasis::Primary).clicked();
+    let name = word!(language, "Always", "Sempre");
+    let hint = word!(
+        language,
+        "Reload now and whenever the file changes. Set up takes it back",
+        "Recarregar agora e sempre que o arquivo mudar. Ajustar desfaz isso"
+    );
+    let always = is_change && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(hint).clicked();
     let close = word!(language, "Close notice", "Fechar aviso");
     let close = button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked();
-    if reload { Some(NoticeAction::Reload) } else { close.then_some(NoticeAction::Close) }
+    let actions = [(reload, NoticeAction::Reload), (always, NoticeAction::AlwaysReload), (close, NoticeAction::Close)];
+    actions.into_iter().find_map(|(is_pressed, action)| is_pressed.then_some(action))
 }
 
 /// Shows that a file is being read and compiled, or its picture traced, with a button that cancels it.

@@ -15,6 +15,7 @@ use crate::gui::widgets;
 use crate::gui::widgets::canvas_texture::CanvasTexture;
 use crate::gui::widgets::icons::{self, Icon};
 use crate::gui::widgets::picture_view::PictureView;
+use crate::gui::widgets::slider::{Scale, slider};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::picture::Atom;
@@ -293,7 +294,7 @@ impl PicturePanel {
         let rect = Rect::from_min_size(pos2(left, middle - 1.25 * GRID), vec2(width, 2.5 * GRID));
         ui.scope_builder(egui::UiBuilder::new().max_rect(rect), |ui| {
             let name = word!(language, "Render or layer", "Imagem ou camada");
-            widgets::slider(ui, &mut self.blend, (0.0..=100.0, true), width, look.accent, name).on_hover_text(word!(
+            slider(ui, &mut self.blend, Scale::Whole(0.0, 100.0), width, look.accent, name).on_hover_text(word!(
                 language,
                 "Blend the render with the layer over it",
                 "Misturar a imagem com a camada sobre ela"

@@ -94,7 +94,7 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
         painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
     }
     match ui.data(|data| data.get_temp::<Option<RingMenu>>(response.id)).flatten() {
-        Some(RingMenu::Node(node)) => machine_menu::on(&response, session, node, look),
+        Some(RingMenu::Node(node)) => machine_menu::on(&response, session, selection, node, look),
         Some(RingMenu::Message(message)) => message_menu::on(&response, session, &message, look),
         None => {}
     }

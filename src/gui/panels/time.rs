@@ -12,7 +12,7 @@ use crate::gui::input::rate_menu;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, cycle, named_button, popup_frame};
+use crate::gui::widgets::{Emphasis, button, cycle, hint_above, named_button, popup_frame};
 use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::{Landmark, Marker, MarkerKind, StepUnit, TimeScale, condition_strokes, landmarks, time_words};
@@ -79,7 +79,7 @@ impl TimePanel {
                 ui.spacing_mut().item_spacing.x = GRID / 2.0;
                 pressed = pressed.or(self.find(ui, session, look));
                 let emphasis = if shows_timeline { Emphasis::On } else { Emphasis::Quiet };
-                let text = (ui.available_width() > 760.0).then_some(word!(language, "Timeline", "Linha do tempo"));
+                let text = (ui.available_width() > 470.0).then_some(word!(language, "Timeline", "Linha do tempo"));
                 let name = word!(language, "Show the timeline", "Mostrar a linha do tempo");
                 let hint = word!(
                     language,
@@ -87,7 +87,7 @@ impl TimePanel {
                     "Mostrar o que cada máquina fez e quando, ou de novo as máquinas (T)"
                 );
                 let timeline = named_button(ui, Some(Icon::Lanes), name, text, emphasis);
-                if timeline.on_hover_text(hint).clicked() {
+                if hint_above(timeline, hint).clicked() {
                     pressed = Some(UserCommand::Timeline);
                 }
                 pressed = pressed.or(live(ui, session.stage(), look, language));
@@ -100,15 +100,21 @@ impl TimePanel {
         pressed
     }
 
-    /// Shows the buttons of the steps: back, unit, forward.
+    /// Shows the button of the beginning, and those of the steps: back, unit, forward.
     fn steps(&mut self, ui: &mut Ui, language: Language) -> Option<UserCommand> {
         let step = self.step;
         let mut pressed = None;
+        let name = word!(language, "Beginning", "Início");
+        let hint = word!(language, "Show the beginning of the run (Home)", "Mostrar o início da execução (Home)");
+        let beginning = button(ui, Some(Icon::Beginning), name, false, Emphasis::Quiet);
+        if hint_above(beginning, hint).clicked() {
+            pressed = Some(UserCommand::Beginning);
+        }
         let (name, [back_keys, forward_keys]) = (step.name(language), ['←', '→'].map(|arrow| keys(step, arrow)));
         let back =
             button(ui, Some(Icon::StepBack), word!(language, "Step back", "Passo atrás"), false, Emphasis::Quiet);
         let hint = say!(language, "To the previous {name} ({back_keys})", "Voltar: {name} ({back_keys})");
-        if back.on_hover_text(hint).clicked() {
+        if hint_above(back, &hint).clicked() {
             pressed = Some(UserCommand::Step(step, false));
         }
         let unit =
@@ -120,13 +126,13 @@ impl TimePanel {
             "Evento: uma mensagem ou mudança do usuário. Átomo: um átomo é calculado. Volta: uma máquina oferece ajuda. \
             Pressione para mudar"
         );
-        if unit.on_hover_text(hint).clicked() {
+        if hint_above(unit, hint).clicked() {
             self.step = cycle(&StepUnit::ALL, step);
         }
         let forward =
             button(ui, Some(Icon::StepOn), word!(language, "Step forward", "Passo adiante"), false, Emphasis::Quiet);
         let hint = say!(language, "To the next {name} ({forward_keys})", "Avançar: {name} ({forward_keys})");
-        if forward.on_hover_text(hint).clicked() {
+        if hint_above(forward, &hint).clicked() {
             pressed = Some(UserCommand::Step(step, true));
         }
         pressed
@@ -141,7 +147,7 @@ impl TimePanel {
             "Jump to the first offer, the biggest transfer … (F)",
             "Ir à primeira oferta, à maior transferência … (F)"
         );
-        let find = button(ui, None, word!(language, "Find", "Achar"), true, emphasis).on_hover_text(hint);
+        let find = hint_above(button(ui, None, word!(language, "Find", "Achar"), true, emphasis), hint);
         let id = Popup::default_response_id(&find);
         if std::mem::take(&mut self.toggles_list) {
             Popup::toggle_id(ui.ctx(), id);
@@ -218,7 +224,9 @@ fn live(ui: &mut Ui, stage: &Stage, look: Look, language: Language) -> Option<Us
     let is_on = if runs { stage.is_live() } else { stage.shows_end() };
     let emphasis = if is_on { Emphasis::On } else { Emphasis::Quiet };
     let icon = if runs { Icon::Live } else { Icon::End };
-    let response = button(ui, Some(icon), name, true, emphasis).on_hover_text(hint);
+    // A narrow bar needs the room for its line.
+    let has_text = ui.ctx().content_rect().width() > 720.0;
+    let response = hint_above(button(ui, Some(icon), name, has_text, emphasis), hint);
     // A dot reminds the user that the run is ahead of the shown time.
     if runs && !is_on {
         ui.painter().circle_filled(response.rect.right_top() + vec2(-4.0, 4.0), 3.0, look.accent);

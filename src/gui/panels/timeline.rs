@@ -2,9 +2,9 @@
 
 use egui::{Align2, Painter, Rect, Response, Sense, Shape, Stroke, Ui, UiBuilder, pos2, vec2};
 
-use super::nodes;
 use crate::balance::{NodeId, Party};
 use crate::gui::input::selection::Selection;
+use crate::gui::input::speed_slider;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets;
 use crate::gui::widgets::explained::explain_at;
@@ -86,7 +86,7 @@ impl TimelinePanel {
         let response = ui.allocate_rect(lanes, Sense::click_and_drag());
         self.window.fit(session.stage().shown_length());
         self.follow(session.stage());
-        self.zoom_and_pan(ui, &response, lanes);
+        zoom_and_pan(&mut self.window, ui, &response, lanes);
         self.window.fit(session.stage().shown_length());
         self.handle_pointer(&response, lanes, &layout, session, selection);
         let stage = session.stage();
@@ -115,25 +115,6 @@ impl TimelinePanel {
         let moved = std::mem::replace(&mut self.last_shown, stage.lasted()) != self.last_shown;
         if moved && !self.window.shows_all() {
             self.window.show(self.last_shown);
-        }
-    }
-
-    /// Zooms with the wheel or a pinch, pans with a drag or a horizontal scroll; a double click shows everything.
-    fn zoom_and_pan(&mut self, ui: &Ui, response: &Response, lanes: Rect) {
-        if let Some(at) = response.hover_pos() {
-            let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
-            let factor = f64::from((-scroll.y * 0.005).exp() / pinch);
-            if factor != 1.0 {
-                self.window.zoom(f64::from((at.x - lanes.left()) / lanes.width()), factor);
-            }
-            if scroll.x != 0.0 {
-                self.window.pan(-f64::from(scroll.x / lanes.width()));
-            }
-        }
-        if response.double_clicked() {
-            self.window.show_all();
-        } else if response.dragged() && !self.window.shows_all() {
-            self.window.pan(-f64::from(response.drag_delta().x / lanes.width()));
         }
     }
 
@@ -260,6 +241,25 @@ impl TimelinePanel {
     }
 }
 
+/// Zooms with the wheel or a pinch, pans with a drag or a horizontal scroll; a double click shows everything.
+pub fn zoom_and_pan(window: &mut TimeWindow, ui: &Ui, response: &Response, lanes: Rect) {
+    if let Some(at) = response.hover_pos() {
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+        let factor = f64::from((-scroll.y * 0.005).exp() / pinch);
+        if factor != 1.0 {
+            window.zoom(f64::from((at.x - lanes.left()) / lanes.width()), factor);
+        }
+        if scroll.x != 0.0 {
+            window.pan(-f64::from(scroll.x / lanes.width()));
+        }
+    }
+    if response.double_clicked() {
+        window.show_all();
+    } else if response.dragged() && !window.shows_all() {
+        window.pan(-f64::from(response.drag_delta().x / lanes.width()));
+    }
+}
+
 /// Shows the head of a lane: the machine's number, slider and speed.
 fn lane_head(
     ui: &mut Ui,
@@ -301,7 +301,7 @@ fn lane_head(
     if row.height() >= MIN_SLIDER_LANE_PT && row.width() > NARROW_HEAD_PT {
         let slider = Rect::from_min_max(pos2(chip.right() + GRID, row.top()), row.max);
         let at = UiBuilder::new().max_rect(slider).id_salt(("lane slider", node));
-        ui.scope_builder(at, |ui| nodes::speed_slider(ui, node, slider.width() - 6.5 * GRID, session));
+        ui.scope_builder(at, |ui| speed_slider::show(ui, node, slider.width() - 6.5 * GRID, session, true));
         let speed = fraction(session.speed(node));
         let right = pos2(slider.right(), row.center().y);
         ui.painter().text(right, Align2::RIGHT_CENTER, speed, theme::regular(theme::SMALL), look.quiet);

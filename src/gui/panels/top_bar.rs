@@ -1,12 +1,13 @@
 //! The top bar: scene, run, time and main buttons.
 
-use egui::{Align, Color32, Label, Layout, RichText, TextStyle, Ui};
+use egui::{Align, Color32, Label, Layout, RichText, Ui};
 
 use crate::gui::input::keys::UserCommand;
+use crate::gui::input::speed_slider::recorded_hint;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, named_button};
+use crate::gui::widgets::{Emphasis, button, button_with_room, named_button, text_width};
 use crate::language::{Language, say, word};
 use crate::runlog::Driver;
 use crate::sentence::shown;
@@ -35,32 +36,36 @@ pub fn show(ui: &mut Ui, session: &Session, open: OpenPages) -> Option<UserComma
     let language = session.language();
     let look = Look::of(ui.ctx());
     let width = ui.available_width();
-    let labelled = labelled_buttons(ui, width, language);
-    let is_wide = labelled == FLEXIBLE_BUTTONS;
+    let labelled = labelled_buttons(ui, width, session);
     let mut clicked = None;
     ui.horizontal(|ui| {
         ui.set_min_height(5.0 * GRID);
         ui.label(RichText::new("anel").font(theme::strong(theme::LARGE)).color(look.text));
         ui.add_space(GRID);
-        let name = session.header().scene.as_str();
-        let shown: String = name.chars().take(if is_wide { 24 } else { 14 }).collect();
         let scenes = word!(language, "Scenes", "Cenas");
-        let shown = if shown.is_empty() { scenes } else { &shown };
+        let shown = shown_scene(session);
         let emphasis = if open.scenes { Emphasis::On } else { Emphasis::Quiet };
         // In a narrow bar the other buttons and the time need the room.
-        let shown = Some(shown).filter(|_| width > 860.0);
+        let shown = Some(shown.as_str()).filter(|_| width > 860.0);
         if named_button(ui, Some(Icon::Scenes), scenes, shown, emphasis).on_hover_text(hint(session)).clicked() {
             clicked = Some(UserCommand::Scenes);
         }
+        if session.is_recorded() {
+            ui.label(quiet(recorded(language).into(), look.text)).on_hover_text(recorded_hint(language));
+        }
         let from_right = Layout::right_to_left(Align::Center);
         ui.with_layout(from_right, |ui| {
+            ui.spacing_mut().item_spacing.x = GAP_PT;
             clicked = clicked.or(buttons(ui, session, labelled, open));
-            ui.add_space(if is_wide { 2.0 * GRID } else { GRID });
-            clock(ui, session.stage(), look, language);
-            if let Some(state) = time_state(session).filter(|_| ui.available_width() > 260.0) {
-                ui.label(quiet(state.into(), look.quiet));
+            ui.add_space(GRID);
+            // Compare has a clock of its own.
+            if !open.compare {
+                clock(ui, session.stage(), look, language);
+                if let Some(state) = time_state(session).filter(|_| ui.available_width() > 260.0) {
+                    ui.label(quiet(state.into(), look.quiet));
+                }
+                ui.add_space(2.0 * GRID);
             }
-            ui.add_space(2.0 * GRID);
             // The room that is left between name and time.
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 let run = run_text(ui, session);
@@ -83,6 +88,9 @@ fn hint(session: &Session) -> String {
     first.chain(session.header().caption.lines()).collect::<Vec<_>>().join("\n")
 }
 
+/// Gap between two buttons, in points.
+const GAP_PT: f32 = GRID / 2.0;
+
 /// Number of buttons that have a text only where there is room for it.
 const FLEXIBLE_BUTTONS: usize = 5;
 
@@ -96,16 +104,51 @@ fn names(language: Language) -> [&'static str; FLEXIBLE_BUTTONS] {
 }
 
 /// Returns how many of the flexible buttons have a text in a bar of this width.
-fn labelled_buttons(ui: &Ui, width: f32, language: Language) -> usize {
-    // Everything else needs this width.
-    let mut room = width - word!(language, 886.0, 906.0);
-    let font = TextStyle::Button.resolve(ui.style());
+fn labelled_buttons(ui: &Ui, width: f32, session: &Session) -> usize {
+    /// Width of a button without its text.
+    const BESIDE_TEXT_PT: f32 = 6.0 * GRID;
+    let language = session.language();
+    let large =
+        |text: String| ui.painter().layout_no_wrap(text, theme::strong(theme::LARGE), Color32::PLACEHOLDER).size().x;
+    let recorded = if session.is_recorded() { text_width(ui, recorded(language)) + GRID } else { 0.0 };
+    let scene = text_width(ui, &shown_scene(session)) + BESIDE_TEXT_PT;
+    let play = play_room(ui, language) + text_width(ui, restart_name(language)) + 2.0 * BESIDE_TEXT_PT;
+    let other = text_width(ui, language.other().short_name()) + 3.0 * GRID;
+    // Help, colours, undo, and the flexible buttons without a text; then the gaps of these and of the other three.
+    let icons = (3 + FLEXIBLE_BUTTONS) as f32 * 4.0 * GRID + (6 + FLEXIBLE_BUTTONS) as f32 * GAP_PT;
+    let stage = session.stage();
+    let clock = large(time_words(longest_time(stage), stage.playback_scale(), language));
+    // The last number is the gaps round the name of the program and the clock.
+    let mut room = width - large("anel".into()) - scene - recorded - clock - play - other - icons - 5.0 * GRID;
     let has_room = |name: &&str| {
-        let galley = ui.painter().layout_no_wrap((*name).to_owned(), font.clone(), Color32::PLACEHOLDER);
-        room -= galley.size().x + 2.0 * GRID;
+        room -= text_width(ui, name) + 2.0 * GRID;
         room >= 0.0
     };
     names(language).into_iter().take_while(has_room).count()
+}
+
+/// Returns the text of the scene's button: its name, or the beginning of a long one.
+fn shown_scene(session: &Session) -> String {
+    let name: String = session.header().scene.chars().take(20).collect();
+    if name.is_empty() { word!(session.language(), "Scenes", "Cenas").into() } else { name }
+}
+
+fn recorded(language: Language) -> &'static str {
+    word!(language, "recorded", "gravada")
+}
+
+fn restart_name(language: Language) -> &'static str {
+    word!(language, "Restart", "Reiniciar")
+}
+
+/// Returns the texts of the button that plays: at the end, while the run goes on, and while it is paused.
+fn play_names(language: Language) -> [&'static str; 3] {
+    word!(language, ["Play again", "Pause", "Resume"], ["Repetir", "Pausar", "Continuar"])
+}
+
+/// Returns the width of the longest of these texts: the button keeps its width.
+fn play_room(ui: &Ui, language: Language) -> f32 {
+    play_names(language).into_iter().map(|name| text_width(ui, name)).fold(0.0, f32::max)
 }
 
 /// Shows the buttons from right to left; the first `labelled` flexible ones have a text. Returns the command of the
@@ -165,14 +208,16 @@ fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> 
             clicked = Some(UserCommand::Undo);
         }
     });
+    // The main button always has a text, the other one unless the bar is so narrow that they would cover the scene's.
+    let is_narrow = ui.ctx().content_rect().width() < 720.0;
     let mut press = |icon, name, has_text, emphasis, command, hint: &str| {
         if button(ui, Some(icon), name, has_text, emphasis).on_hover_text(hint).clicked() {
             clicked = Some(command);
         }
     };
-    // The two main buttons always have a text.
     let is_over = !matches!(session.stage().phase, Phase::Running | Phase::Preparing);
-    let emphasis = |is_main: bool| if is_main { Emphasis::Primary } else { Emphasis::Quiet };
+    // Compare has a main button of its own.
+    let emphasis = |is_main: bool| if is_main && !open.compare { Emphasis::Primary } else { Emphasis::Quiet };
     let hint = if session.is_recorded() {
         word!(
             language,
@@ -186,18 +231,28 @@ fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> 
             "Iniciar uma nova execução com os ajustes atuais (R)"
         )
     };
-    let name = word!(language, "Restart", "Reiniciar");
-    press(Icon::Restart, name, true, emphasis(is_over && session.stage().shows_end()), UserCommand::Restart, hint);
+    let name = restart_name(language);
+    press(
+        Icon::Restart,
+        name,
+        !is_narrow,
+        emphasis(is_over && session.stage().shows_end()),
+        UserCommand::Restart,
+        hint,
+    );
     let stage = session.stage();
+    let [again, pause, resume] = play_names(language);
     let (icon, name) = match stage.goes_on() {
-        _ if stage.is_at_end() => (Icon::Play, word!(language, "Play again", "Repetir")),
-        true => (Icon::Pause, word!(language, "Pause", "Pausar")),
-        false if stage.phase == Phase::Preparing => (Icon::Pause, word!(language, "Pause", "Pausar")),
-        false => (Icon::Play, word!(language, "Resume", "Continuar")),
+        _ if stage.is_at_end() => (Icon::Play, again),
+        true => (Icon::Pause, pause),
+        false if stage.phase == Phase::Preparing => (Icon::Pause, pause),
+        false => (Icon::Play, resume),
     };
-    let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_));
+    let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_)) && !open.compare;
+    // A narrow bar has no room for it.
+    let room = if labelled > 0 { play_room(ui, language) } else { 0.0 };
     ui.add_enabled_ui(can, |ui| {
-        let button = button(ui, Some(icon), name, true, emphasis(!is_over || !stage.shows_end()));
+        let button = button_with_room(ui, icon, name, room, emphasis(!is_over || !stage.shows_end()));
         if button.on_hover_text(word!(language, "Pause or resume (space)", "Pausar ou continuar (espaço)")).clicked() {
             clicked = Some(UserCommand::Pause);
         }
@@ -219,21 +274,27 @@ fn time_state(session: &Session) -> Option<&'static str> {
     }
 }
 
+/// Returns the longest time that the clock is expected to show.
+fn longest_time(stage: &Stage) -> Time {
+    let is_over = matches!(stage.phase, Phase::Finished | Phase::Failed(_));
+    if is_over { stage.length() } else { stage.length().max(Time::from_secs(10.0)) }
+}
+
 /// Shows the time of the run. It has the width of the longest time that is to be expected, so that its neighbours stay
 /// in their places.
 fn clock(ui: &mut Ui, stage: &Stage, look: Look, language: Language) {
     let (scale, font) = (stage.playback_scale(), theme::strong(theme::LARGE));
     let layout = |time| ui.painter().layout_no_wrap(time_words(time, scale, language), font.clone(), look.text);
-    let (time, length) = (stage.lasted(), stage.length());
-    let longest = if stage.phase == Phase::Running { length.max(Time::from_secs(10.0)) } else { length };
-    let size = layout(longest).size();
-    if size.x < ui.available_width() {
+    let time = stage.lasted();
+    let size = layout(longest_time(stage)).size();
+    // Without a gap it would touch the scene's name.
+    if size.x + GRID < ui.available_width() {
         let text = RichText::new(time_words(time, scale, language)).font(font).color(look.text);
         ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| ui.label(text));
     }
 }
 
-/// Describes the run in one line: recorded or not, title, strategy, machines, and as much about the picture as fits.
+/// Describes the run in one line: title, strategy, machines, and as much about the picture as fits.
 fn run_text(ui: &Ui, session: &Session) -> String {
     let language = session.language();
     let header = session.header();
@@ -243,11 +304,6 @@ fn run_text(ui: &Ui, session: &Session) -> String {
     let machines = format!("{machines}{virtual_time}");
     let title = &header.caption.title;
     let machines = if title.is_empty() { machines } else { format!("“{}” · {machines}", shown(title, 60)) };
-    let machines = if session.is_recorded() {
-        say!(language, "recorded · {machines}", "gravada · {machines}")
-    } else {
-        machines
-    };
     let (width, height) = (header.size.width(), header.size.height());
     let size = format!("{machines} · {width} × {height} pixels");
     let (atoms, pixels) = (count(header.division.atoms()), header.division.atom_pixels());

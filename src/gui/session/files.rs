@@ -176,8 +176,11 @@ impl Session {
         self.notices.add(Notice::new(text, NoticeKind::Trouble, NoticeCause::File, self.clock));
     }
 
-    /// Shows the notice that the open file has changed or was deleted.
+    /// Reloads the open file, which has changed, or shows the notice that it has changed or was deleted.
     pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {
+        if self.always_reload && change == FileChange::Written && !self.is_recorded() {
+            return self.reload();
+        }
         let language = self.language;
         let name = file_name(path);
         let (text, kind) = match change {
@@ -196,6 +199,16 @@ impl Session {
         // What was said of the file before is no longer true.
         self.notices.end(NoticeCause::File);
         self.notices.add(Notice::new(text, kind, NoticeCause::File, self.clock));
+    }
+
+    /// Whether a changed scene is reloaded without a question.
+    pub fn always_reloads(&self) -> bool {
+        self.always_reload
+    }
+
+    /// Sets whether a changed scene is reloaded without a question.
+    pub fn set_always_reload(&mut self, always: bool) {
+        self.always_reload = always;
     }
 
     /// Returns the files that were opened last, the latest first.

@@ -32,12 +32,15 @@ impl Session {
         self.inspect_again();
     }
 
-    /// Moves the inspected pixel by this many columns and rows, at most to the edge of the picture.
+    /// Moves the inspected pixel by this many columns and rows, at most to the edge of the picture. The chosen ray
+    /// stays, if the other pixel has it.
     pub fn inspect_beside(&mut self, by: [i32; 2]) {
         let size = self.header().size;
         if let Some(requested) = self.inspecting.requested {
             let [x, y] = [0, 1].map(|axis| requested.pixel[axis].saturating_add_signed(by[axis]));
-            self.inspect([x.min(size.width() - 1), y.min(size.height() - 1)]);
+            let pixel = [x.min(size.width() - 1), y.min(size.height() - 1)];
+            self.inspecting.requested = Some(InspectedRay { pixel, ..requested });
+            self.inspect_again();
         }
     }
 

@@ -92,6 +92,8 @@ pub struct Session {
     log_path: Option<PathBuf>,
     /// Recently opened files, the latest first.
     recent: Vec<PathBuf>,
+    /// Whether a changed scene is reloaded without a question.
+    always_reload: bool,
     /// Background colour of the picture.
     ground: Rgb,
     /// While the time is dragged: whether it was stopped before.
@@ -130,6 +132,7 @@ impl Session {
             exports: Vec::new(),
             log_path,
             recent: Vec::new(),
+            always_reload: false,
             ground,
             dragged_from: None,
             language: Language::default(),

@@ -2,6 +2,7 @@
 
 pub mod pace;
 pub mod speed_preset;
+pub mod speed_steps;
 pub mod undo;
 
 mod difference;

@@ -29,9 +29,13 @@ pub enum Icon {
     Learn,
     /// Arrow to the left: undo.
     Undo,
-    /// Bar and triangle: previous event.
+    /// Bar and triangle: beginning.
+    Beginning,
+    /// Triangle and bar: end.
+    End,
+    /// Arrow to a dot at the left: previous event.
     StepBack,
-    /// Triangle and bar: next event.
+    /// Arrow to a dot at the right: next event.
     StepOn,
     /// Left arrow: previous step of a lesson.
     Back,
@@ -43,8 +47,6 @@ pub enum Icon {
     Faster,
     /// Dot: live.
     Live,
-    /// Chevron and bar: end.
-    End,
     /// Bars in lanes: timeline.
     Lanes,
     /// Camera.
@@ -136,15 +138,25 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
                 painter.rect_filled(bar, 1.0, colour);
             }
         }
-        Icon::StepBack => {
-            line(&[(0.28, 0.2), (0.28, 0.8)]);
-            let corners = vec![at(0.78, 0.2), at(0.78, 0.8), at(0.38, 0.5)];
+        Icon::Beginning => {
+            line(&[(0.22, 0.18), (0.22, 0.82)]);
+            let corners = vec![at(0.82, 0.16), at(0.82, 0.84), at(0.34, 0.5)];
             painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
         }
-        Icon::StepOn => {
-            line(&[(0.72, 0.2), (0.72, 0.8)]);
-            let corners = vec![at(0.22, 0.2), at(0.62, 0.5), at(0.22, 0.8)];
+        Icon::End => {
+            line(&[(0.78, 0.18), (0.78, 0.82)]);
+            let corners = vec![at(0.18, 0.16), at(0.66, 0.5), at(0.18, 0.84)];
             painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+        }
+        Icon::StepBack => {
+            painter.circle_filled(at(0.14, 0.5), rect.width() * 0.14, colour);
+            line(&[(0.98, 0.5), (0.42, 0.5)]);
+            line(&[(0.64, 0.26), (0.4, 0.5), (0.64, 0.74)]);
+        }
+        Icon::StepOn => {
+            painter.circle_filled(at(0.86, 0.5), rect.width() * 0.14, colour);
+            line(&[(0.02, 0.5), (0.58, 0.5)]);
+            line(&[(0.36, 0.26), (0.6, 0.5), (0.36, 0.74)]);
         }
         Icon::Back => {
             line(&[(0.9, 0.5), (0.12, 0.5)]);
@@ -166,10 +178,6 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
         }
         Icon::Live => {
             painter.circle_filled(rect.center(), rect.width() * 0.26, colour);
-        }
-        Icon::End => {
-            line(&[(0.74, 0.2), (0.74, 0.8)]);
-            line(&[(0.26, 0.24), (0.54, 0.5), (0.26, 0.76)]);
         }
         Icon::Lanes => {
             for (y, from, to) in [(0.22, 0.08, 0.62), (0.5, 0.3, 0.92), (0.78, 0.08, 0.5)] {

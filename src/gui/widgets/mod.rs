@@ -8,6 +8,7 @@ pub mod paint;
 pub mod path_input;
 pub mod picture_view;
 pub mod progress;
+pub mod slider;
 pub mod test_positions;
 pub mod theme;
 
@@ -15,8 +16,8 @@ use std::cell::Cell;
 use std::ops::RangeInclusive;
 
 use egui::{
-    Align, Color32, Context, DragValue, Frame, Id, Key, Label, Layout, Modifiers, Rect, Response, RichText, Role,
-    Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align, Color32, Context, DragValue, Frame, Id, Key, Label, Layout, Modifiers, Rect, RectAlign, Response, RichText,
+    Role, Sense, Stroke, StrokeKind, TextStyle, Tooltip, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use crate::language::{Language, word};
@@ -138,47 +139,6 @@ pub fn popup_frame(ctx: &Context) -> Frame {
     Frame::popup(&ctx.global_style()).fill(look.ground).stroke(Stroke::new(1.0, look.hairline)).inner_margin(GRID)
 }
 
-/// Shows a slim slider, in steps of 1 if `whole`, with its filled part in `colour`. `name` is its accessible name.
-pub fn slider(
-    ui: &mut Ui,
-    value: &mut f64,
-    (range, whole): (RangeInclusive<f64>, bool),
-    width: f32,
-    colour: Color32,
-    name: &str,
-) -> Response {
-    ui.scope(|ui| {
-        let look = Look::of(ui.ctx());
-        ui.spacing_mut().slider_width = width;
-        ui.spacing_mut().interact_size.y = ui.available_height().min(2.5 * GRID);
-        let visuals = ui.visuals_mut();
-        visuals.selection.bg_fill = colour;
-        for state in [&mut visuals.widgets.inactive, &mut visuals.widgets.hovered, &mut visuals.widgets.active] {
-            state.bg_fill = look.hairline;
-            state.fg_stroke = Stroke::NONE;
-        }
-        let (min, max) = (*range.start(), *range.end());
-        let slider = egui::Slider::new(value, range).step_by(if whole { 1.0 } else { 0.0 }).show_value(false);
-        let response = ui.add(slider);
-        // egui names a slider only by a text beside it.
-        response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), *value, name));
-        // Covers egui's handle, which has the colour of the rail.
-        let radius = response.rect.height() / 2.5;
-        let left = response.rect.left() + radius;
-        let share = ((*value - min) / (max - min)).clamp(0.0, 1.0) as f32;
-        let x = left + (response.rect.width() - 2.0 * radius) * share;
-        let handle = pos2(x, response.rect.center().y);
-        let handle_radius = if response.hovered() || response.dragged() { radius + 1.0 } else { radius };
-        let line = if ui.is_enabled() { look.text } else { look.quiet };
-        ui.painter().circle(handle, handle_radius, colour, Stroke::new(2.0, line));
-        if response.has_focus() {
-            ui.painter().circle_stroke(handle, handle_radius + 3.0, Stroke::new(1.5, look.accent));
-        }
-        response
-    })
-    .inner
-}
-
 /// Shows a number field, to type or to drag. A text that is no number is refused as a whole: the value stays, the field
 /// gets a red frame, and [`RefusedNumber`] says why. `name` is its accessible name.
 pub fn number_field<N: egui::emath::Numeric>(
@@ -260,12 +220,12 @@ fn show_refusal(ui: &Ui, response: &Response, refused: Option<(String, NumberErr
     }
 }
 
-/// Shows the content of a menu for a machine or a message: a title, a button for each action, and a hint. The buttons
-/// are disabled unless the run `is_possible` to change. Returns the chosen action.
+/// Shows the content of a menu for a machine or a message: a title, a row for each action with its text and its key,
+/// and a hint. The rows are disabled unless the run `is_possible` to change. Returns the chosen action.
 pub fn action_menu<T>(
     ui: &mut Ui,
     title: &str,
-    actions: impl IntoIterator<Item = (T, String)>,
+    actions: impl IntoIterator<Item = (T, String, &'static str)>,
     (is_possible, hint): (bool, &str),
     look: Look,
     language: Language,
@@ -274,9 +234,9 @@ pub fn action_menu<T>(
     let title = Label::new(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text)).wrap();
     ui.with_layout(Layout::top_down(Align::Min), |ui| ui.add(title));
     let mut chosen = None;
-    for (action, text) in actions {
+    for (action, text, key) in actions {
         ui.add_enabled_ui(is_possible, |ui| {
-            if button(ui, None, &text, true, Emphasis::Quiet).clicked() {
+            if menu_row(ui, &text, key, look).clicked() {
                 chosen = Some(action);
                 ui.close();
             }
@@ -292,6 +252,30 @@ pub fn action_menu<T>(
     // The layout of a menu would stretch the lines.
     ui.with_layout(Layout::top_down(Align::Min), |ui| ui.add(hint));
     chosen
+}
+
+/// Shows a row of a menu, as wide as the menu, with its key at the right.
+fn menu_row(ui: &mut Ui, text: &str, key: &str, look: Look) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 4.0 * GRID), Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), text));
+    let is_hovered = response.hovered() || response.has_focus();
+    ui.painter().rect_filled(rect, 6.0, if is_hovered { look.hairline } else { look.raised });
+    for (text, right, colour) in [(text, false, look.text), (key, true, look.quiet)] {
+        let galley = ui.painter().layout_no_wrap(text.to_owned(), TextStyle::Button.resolve(ui.style()), colour);
+        let x = if right { rect.right() - 1.5 * GRID - galley.size().x } else { rect.left() + 1.5 * GRID };
+        ui.painter().galley(pos2(x, rect.center().y - galley.size().y / 2.0), galley, colour);
+    }
+    response
+}
+
+/// Shows a tooltip above a widget, enabled or not, so that it covers nothing below.
+pub fn hint_above(response: Response, text: &str) -> Response {
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_description(text));
+    let mut tooltip = Tooltip::for_widget(&response);
+    tooltip.popup = tooltip.popup.open(Tooltip::should_show_tooltip(&response, true)).align(RectAlign::TOP);
+    tooltip.popup = tooltip.popup.align_alternatives(&[RectAlign::TOP_START, RectAlign::TOP_END]);
+    tooltip.show(|ui| ui.label(text));
+    response
 }
 
 /// Shows the content of a tooltip: a title and rows of name and value.

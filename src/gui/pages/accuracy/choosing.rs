@@ -3,8 +3,9 @@
 use egui::{Label, RichText, Ui, vec2};
 
 use super::findings::{AccuracyFindings, Choice};
+use crate::gui::widgets::slider::{Scale, slider};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, slider};
+use crate::gui::widgets::{Emphasis, button};
 use crate::language::{Language, say, word};
 use crate::picture::Quality;
 use crate::study::accuracy::Point;
@@ -130,7 +131,7 @@ fn limit_slider(
         let width = (ui.available_width() - VALUE_WIDTH_PT - GRID).max(8.0 * GRID);
         ui.add_enabled_ui(from < to, |ui| {
             let mut exponent = value.max(MIN_VALUE).log10().clamp(from, to.max(from));
-            let range = (from..=to.max(from + 1e-3), false);
+            let range = Scale::Linear(from, to.max(from + 1e-3));
             let response = slider(ui, &mut exponent, range, width, look.accent, name);
             if response.changed() {
                 // At the ends the exact limits, without rounding.

@@ -63,7 +63,7 @@ pub fn changes(
             heading(ui, word!(language, "A machine", "Uma máquina"), look);
             let before = button(
                 ui,
-                Some(Icon::StepBack),
+                Some(Icon::Back),
                 word!(language, "Previous machine", "Máquina anterior"),
                 false,
                 Emphasis::Quiet,
@@ -73,14 +73,8 @@ pub fn changes(
             }
             let number = RichText::new(node_name(node as NodeId).to_string());
             ui.label(number.font(theme::strong(theme::BODY)).color(look.text));
-            if button(
-                ui,
-                Some(Icon::StepOn),
-                word!(language, "Next machine", "Próxima máquina"),
-                false,
-                Emphasis::Quiet,
-            )
-            .clicked()
+            if button(ui, Some(Icon::Next), word!(language, "Next machine", "Próxima máquina"), false, Emphasis::Quiet)
+                .clicked()
             {
                 node = (node + 1) % nodes;
             }

@@ -35,8 +35,8 @@ pub fn letter(index: usize) -> char {
     char::from(b'A' + index.min(25) as u8)
 }
 
-/// Shows all columns. A click on a picture puts its run into the `pair` whose difference is explained. `below` is the
-/// height to leave below the columns. Returns the action of the pressed button.
+/// Shows all columns. A click on a picture or on a letter puts its run into the `pair` whose difference is explained.
+/// `below` is the height to leave below the columns. Returns the action of the pressed button.
 pub fn show(
     ui: &mut Ui,
     columns: &mut [CompareColumn],
@@ -64,10 +64,12 @@ pub fn show(
         let top = area.top();
         let is_chosen = pair.contains(&index);
         let row = Rect::from_min_size(pos2(left, top), vec2(wide, HEADING_HEIGHT_PT - 0.5 * GRID));
-        action = action.or(heading(ui, row, (index, column), (many, is_full, now), is_chosen, look, language));
+        let (headed, is_chip_clicked) =
+            heading(ui, row, (index, column), (many, is_full, now), is_chosen, look, language);
+        action = action.or(headed);
         let frame = Rect::from_min_size(pos2(left, top + HEADING_HEIGHT_PT), vec2(wide, high));
         let response = picture(ui, frame, (index, column), is_chosen, look, language);
-        if response.clicked() && !is_chosen {
+        if (response.clicked() || is_chip_clicked) && !is_chosen {
             // The run that was chosen last stays in the pair.
             *pair = [pair[1], index];
         }
@@ -81,7 +83,8 @@ pub fn show(
     action
 }
 
-/// Shows letter, name and buttons of a run.
+/// Shows letter, name and buttons of a run. Returns the action of the pressed button, and whether the letter was
+/// clicked.
 fn heading(
     ui: &mut Ui,
     row: Rect,
@@ -90,8 +93,8 @@ fn heading(
     is_chosen: bool,
     look: Look,
     language: Language,
-) -> Option<ColumnAction> {
-    let mut action = None;
+) -> (Option<ColumnAction>, bool) {
+    let (mut action, mut is_clicked) = (None, false);
     let end = column.run.as_ref().and_then(|run| run.end());
     let fork_at = (now > Time::ZERO && end.is_none_or(|end| now < end)).then_some(now);
     let layout = Layout::right_to_left(Align::Center);
@@ -118,15 +121,29 @@ fn heading(
         let left = Layout::left_to_right(Align::Center);
         ui.with_layout(left, |ui| {
             let ground = if is_chosen { look.accent } else { look.raised };
-            let (chip, _) = ui.allocate_exact_size(vec2(3.0 * GRID, 3.0 * GRID), Sense::hover());
+            let (chip, response) = ui.allocate_exact_size(vec2(3.0 * GRID, 3.0 * GRID), Sense::click());
+            let choose = say!(language, "Choose {letter}", "Escolher {letter}");
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_chosen, &choose));
             ui.painter().rect_filled(chip, 4.0, ground);
+            if response.hovered() || response.has_focus() {
+                ui.painter().rect_stroke(chip, 4.0, Stroke::new(1.5, look.quiet), StrokeKind::Outside);
+            }
+            is_clicked = response.on_hover_text(choose_hint(language)).clicked();
             let colour = if is_chosen { look.on_accent } else { look.text };
             let font = theme::strong(theme::BODY);
             ui.painter().text(chip.center(), egui::Align2::CENTER_CENTER, letter, font, colour);
             name(ui, &column.name(language), look);
         });
     });
-    action
+    (action, is_clicked)
+}
+
+fn choose_hint(language: Language) -> &'static str {
+    word!(
+        language,
+        "Click to see why it differs from the other chosen run",
+        "Clique para ver por que difere da outra execução escolhida"
+    )
 }
 
 /// Shows the name of a run, in up to two lines; the tooltip has all of it.
@@ -156,11 +173,6 @@ fn picture(
     let response = ui.interact(frame, ui.scope_id().with(("compared run", column.id)), Sense::click());
     ui.painter().rect_filled(frame, 0.0, look.raised);
     let letter = letter(index);
-    let hint = word!(
-        language,
-        "Click to see why it differs from the other chosen run",
-        "Clique para ver por que difere da outra execução escolhida"
-    );
     if let Some(run) = &mut column.run {
         let ground = theme::rgb(look.ground);
         let canvas = run.canvas((Layer::Owners, 0.6), ground);
@@ -187,7 +199,7 @@ fn picture(
         let colour = if is_chosen { look.accent } else { look.quiet };
         ui.painter().rect_stroke(frame, 0.0, Stroke::new(2.0, colour), StrokeKind::Outside);
     }
-    response.on_hover_text(hint)
+    response.on_hover_text(choose_hint(language))
 }
 
 /// Paints the progress of a run on a line as long as the longest run, and its makespan when it has ended.

@@ -13,7 +13,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::{
-    Definition, NamedBudget, TimeBudget, compare_runs, count, duration, fraction, time_budget_height,
+    Definition, NamedBudget, TimeBudget, TimeWindow, compare_runs, count, duration, fraction, time_budget_height,
     time_budget_legend, time_budget_marks, time_budget_words,
 };
 
@@ -35,6 +35,10 @@ pub struct Findings {
     tab: Tab,
     /// Columns of the two runs whose difference is explained.
     pub pair: [usize; 2],
+    /// The stretch of time that the timelines show.
+    pub window: TimeWindow,
+    /// Shown time of the last frame.
+    last_shown: Time,
 }
 
 impl Findings {
@@ -60,7 +64,10 @@ impl Findings {
     ) -> Option<Time> {
         let (look, mut sought) = (Look::of(ui.ctx()), None);
         let area = ui.available_rect_before_wrap();
-        let right = (0.32 * area.width()).clamp(34.0 * GRID, 56.0 * GRID);
+        let table = NAMES_WIDTH_PT + columns.len() as f32 * MIN_FIGURE_WIDTH_PT + GRID;
+        // The tabs at the left need their room.
+        let most = area.width() - 69.0 * GRID;
+        let right = (0.32 * area.width()).clamp(34.0 * GRID, 56.0 * GRID).max(table.min(most));
         let left = area.with_max_x(area.right() - right - 3.0 * GRID);
         let right = area.with_min_x(area.right() - right);
         ui.scope_builder(UiBuilder::new().max_rect(left), |ui| {
@@ -86,7 +93,13 @@ impl Findings {
             }
             ui.add_space(GRID);
             match self.tab {
-                Tab::Lanes => sought = lanes::show(ui, columns, now, length, look, language),
+                Tab::Lanes => {
+                    // The shown time stays inside a zoomed window.
+                    if std::mem::replace(&mut self.last_shown, now) != now {
+                        self.window.show(now);
+                    }
+                    sought = lanes::show(ui, columns, &mut self.window, (now, length), look, language);
+                }
                 Tab::Spent => where_time_went(ui, columns, look, language),
                 Tab::Growth(measure) => growth::show(ui, growth, columns, measure, look, language),
             }
@@ -124,13 +137,18 @@ impl Findings {
             };
             ui.label(RichText::new(text).font(theme::regular(theme::BODY)).color(look.text));
             ui.add_space(GRID);
-            figures(ui, [(a, one.budget.as_ref()), (b, other.budget.as_ref())], look, language);
+            figures(ui, columns, self.pair, look, language);
         });
     }
 }
 
-/// Shows a table with a row for each figure and a column for each of the two runs.
-fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, language: Language) {
+/// Width of the names of the figures, in points.
+const NAMES_WIDTH_PT: f32 = 19.0 * GRID;
+/// Least width of a column of figures, in points.
+const MIN_FIGURE_WIDTH_PT: f32 = 7.5 * GRID;
+
+/// Shows a table with a row for each figure and a column for each run; those of the pair stand out.
+fn figures(ui: &mut Ui, columns: &[CompareColumn], pair: [usize; 2], look: Look, language: Language) {
     /// A figure, and its value.
     type Figure = (Definition, fn(&TimeBudget, Language) -> String);
     let all: [Figure; 7] = [
@@ -143,21 +161,29 @@ fn figures(ui: &mut Ui, runs: [(char, Option<&TimeBudget>); 2], look: Look, lang
         (Definition::ALONE, |budget, language| duration(budget.last.alone, language)),
     ];
     let font = theme::regular(theme::SMALL);
-    let row = |ui: &mut Ui, name: &str, values: [String; 2]| {
+    let room = ui.available_width() - GRID - NAMES_WIDTH_PT;
+    // A narrow page has room for the pair only.
+    let has_all = columns.len() as f32 * MIN_FIGURE_WIDTH_PT <= room + 1.0;
+    let shown: Vec<usize> = (0..columns.len()).filter(|index| has_all || pair.contains(index)).collect();
+    let wide = (room / shown.len().max(1) as f32).min(11.0 * GRID);
+    let budget_of = |&index: &usize| columns[index].run.as_ref()?.budget.as_ref();
+    let row = |ui: &mut Ui, name: &str, values: Vec<String>| {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
         ui.spacing_mut().item_spacing.y = 0.0;
         widgets::describe(&response, name, || values.join("; "));
         let painter = ui.painter();
         painter.text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font.clone(), look.quiet);
-        for (value, right) in values.into_iter().zip([11.0 * GRID, 0.0]) {
-            let at = pos2(rect.right() - GRID - right, rect.center().y);
-            painter.text(at, egui::Align2::RIGHT_CENTER, value, font.clone(), look.text);
+        for (place, (index, value)) in shown.iter().zip(&values).rev().enumerate() {
+            let at = pos2(rect.right() - GRID - wide * place as f32, rect.center().y);
+            let colour = if pair.contains(index) { look.text } else { look.quiet };
+            painter.text(at, egui::Align2::RIGHT_CENTER, value, font.clone(), colour);
         }
         response
     };
-    row(ui, "", runs.map(|(letter, _)| letter.to_string()));
+    row(ui, "", shown.iter().map(|&index| letter(index).to_string()).collect());
     for (figure, value_of) in all {
-        let values = runs.map(|(_, budget)| budget.map_or("—".to_owned(), |budget| value_of(budget, language)));
+        let value = |budget: Option<&TimeBudget>| budget.map_or("—".to_owned(), |budget| value_of(budget, language));
+        let values = shown.iter().map(budget_of).map(value).collect();
         explained(row(ui, figure.name(language), values), figure, language);
     }
 }

@@ -11,7 +11,7 @@ use crate::gui::input::rate_menu;
 use crate::gui::session::{Session, TracedShare};
 use crate::gui::widgets::icons::Icon;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, progress};
+use crate::gui::widgets::{Emphasis, button, button_with_room, progress, text_width};
 use crate::language::{Language, word};
 use crate::view::{TimeScale, time_words};
 
@@ -86,12 +86,14 @@ impl Compare {
     /// Shows the buttons of the playback and the shown time.
     fn play(&mut self, ui: &mut Ui, look: Look, language: Language) {
         let is_over = self.time.now() >= self.length();
+        let names = word!(language, ["Play again", "Resume", "Pause"], ["Repetir", "Continuar", "Pausar"]);
         let (icon, name) = match self.time.is_paused() {
-            _ if is_over => (Icon::Restart, word!(language, "Play again", "Repetir")),
-            true => (Icon::Play, word!(language, "Resume", "Continuar")),
-            false => (Icon::Pause, word!(language, "Pause", "Pausar")),
+            _ if is_over => (Icon::Restart, names[0]),
+            true => (Icon::Play, names[1]),
+            false => (Icon::Pause, names[2]),
         };
-        if button(ui, Some(icon), name, true, Emphasis::Primary).clicked() {
+        let room = names.map(|name| text_width(ui, name)).into_iter().fold(0.0, f32::max);
+        if button_with_room(ui, icon, name, room, Emphasis::Primary).clicked() {
             self.handle_command(UserCommand::Pause);
         }
         ui.spacing_mut().item_spacing.x = GRID / 2.0;

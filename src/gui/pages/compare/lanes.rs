@@ -5,10 +5,11 @@ use egui::{Align2, Painter, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 use super::CompareColumn;
 use super::columns::letter;
+use crate::gui::panels::timeline::zoom_and_pan;
 use crate::gui::widgets;
 use crate::gui::widgets::paint::{Inks, quads};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::language::{Language, word};
+use crate::language::{Language, say, word};
 use crate::time::Time;
 use crate::view::{
     ComparedRun, TimeScale, TimeWindow, TimelineLayout, axis, node_name, time_budget_words, time_words, timeline,
@@ -21,16 +22,15 @@ const NUMBERS_WIDTH_PT: f32 = 2.5 * GRID;
 /// Height of the time axis below the lanes, in points.
 const AXIS_HEIGHT_PT: f32 = 2.25 * GRID;
 
-/// Shows the lanes of all runs. Returns the time to which the user drags.
+/// Shows the stretch `window` of the lanes of all runs; the wheel zooms it. Returns the time that the user chooses.
 pub fn show(
     ui: &mut Ui,
     columns: &mut [CompareColumn],
-    now: Time,
-    length: Time,
+    window: &mut TimeWindow,
+    (now, length): (Time, Time),
     look: Look,
     language: Language,
 ) -> Option<Time> {
-    let mut sought = None;
     let area = ui.available_rect_before_wrap();
     let has_changes = columns.iter().any(|column| column.change_times().next().is_some());
     let legend =
@@ -38,57 +38,58 @@ pub fn show(
     let legend = ui.painter().layout_job(legend);
     let foot = AXIS_HEIGHT_PT + legend.size().y;
     let each = ((area.height() - foot) / columns.len().max(1) as f32).min(14.0 * GRID);
-    let mut window = TimeWindow::default();
-    window.fit(length);
     let bottom = area.top() + each * columns.len() as f32 - 0.5 * GRID;
     let all = Rect::from_min_max(
         pos2(area.left() + LETTER_WIDTH_PT + NUMBERS_WIDTH_PT, area.top()),
         pos2(area.right(), bottom),
     );
-    time_axis(ui.painter(), all, &window, look, language);
+    let response = ui.interact(all, ui.scope_id().with("lanes"), Sense::click_and_drag());
+    widgets::describe(&response, word!(language, "Lanes of all runs", "Pistas de todas as execuções"), || {
+        let [from, to] = [window.from(), window.to()];
+        let [from, to] = [from, to].map(|time| time_words(time, TimeScale::of_length(length), language));
+        say!(language, "from {from} to {to}", "de {from} a {to}")
+    });
+    window.fit(length);
+    zoom_and_pan(window, ui, &response, all);
+    window.fit(length);
+    let is_chosen = response.clicked() || response.dragged() && window.shows_all();
+    let chosen = response.interact_pointer_pos().filter(|_| is_chosen);
+    let sought = chosen.map(|at| window.at(f64::from(((at.x - all.left()) / all.width()).clamp(0.0, 1.0))));
+    time_axis(ui.painter(), all, window, look, language);
     for (index, column) in columns.iter_mut().enumerate() {
         let top = area.top() + each * index as f32;
         let strip = Rect::from_min_size(pos2(all.left(), top), vec2(all.width(), each - GRID));
         let at = pos2(area.left(), strip.center().y);
         ui.painter().text(at, Align2::LEFT_CENTER, letter(index), theme::strong(theme::BODY), look.text);
-        if let Some(share) = run_lanes(ui, strip, column, &window, look, language) {
-            sought = Some(window.at(share));
-        }
+        run_lanes(ui, strip, column, window, look, language);
     }
     let x = all.left() + all.width() * window.share(now.min(length)) as f32;
-    ui.painter().line_segment([pos2(x, all.top()), pos2(x, bottom)], Stroke::new(1.5, look.accent));
+    ui.painter_at(all.expand(1.0)).line_segment([pos2(x, all.top()), pos2(x, bottom)], Stroke::new(1.5, look.accent));
     ui.painter().galley(pos2(area.left(), bottom + AXIS_HEIGHT_PT), legend, look.quiet);
     sought
 }
 
-/// Shows the lanes of one run. Returns the position to which the user drags, as a share of the width.
-fn run_lanes(
-    ui: &Ui,
-    strip: Rect,
-    column: &mut CompareColumn,
-    window: &TimeWindow,
-    look: Look,
-    language: Language,
-) -> Option<f64> {
+/// Shows the lanes of one run.
+fn run_lanes(ui: &Ui, strip: Rect, column: &mut CompareColumn, window: &TimeWindow, look: Look, language: Language) {
     let change_times: Vec<Time> = column.change_times().collect();
-    let run = column.run.as_ref()?;
+    let Some(run) = column.run.as_ref() else { return };
     let lanes = run.lanes.lanes().len();
     let lane = strip.height() / lanes.max(1) as f32;
     let layout =
         TimelineLayout { width: strip.width(), header_height: 0.0, axis_height: 0.0, lane_height: lane, lanes };
-    let key = (strip.size(), window.to());
-    if column.lanes.as_ref().is_none_or(|(size, end, _)| (*size, *end) != key) {
-        let drawing = timeline(&run.lanes, window, &layout, run.length());
-        column.lanes = Some((key.0, key.1, drawing));
-    }
-    let (.., drawing) = column.lanes.as_ref()?;
-    let (inks, painter) = (Inks { look, nodes: &run.colours }, ui.painter());
+    let key = (strip.size(), *window);
+    let drawn = column.lanes.take().filter(|(size, drawn, _)| (*size, *drawn) == key);
+    let drawn = drawn.unwrap_or_else(|| (key.0, key.1, timeline(&run.lanes, window, &layout, run.length())));
+    let (.., drawing) = &drawn;
+    numbers(ui.painter(), strip, &layout, look);
+    // A change of a speed has a wedge above the lanes.
+    let inks = Inks { look, nodes: &run.colours };
+    let painter = &ui.painter_at(strip.expand2(vec2(1.0, GRID)));
     painter.add(Shape::mesh(quads(&drawing.quads, strip.min, &inks)));
     for (from, to, ink) in &drawing.lines {
         let at = |[x, y]: [f32; 2]| strip.min + vec2(x, y);
         painter.line_segment([at(*from), at(*to)], Stroke::new(1.0, inks.colour(*ink)));
     }
-    numbers(painter, strip, &layout, look);
     let vertical = |time: Time| {
         let x = strip.left() + strip.width() * window.share(time) as f32;
         [pos2(x, strip.top()), pos2(x, strip.bottom())]
@@ -102,10 +103,9 @@ fn run_lanes(
         let above = [vec2(-4.0, -6.0), vec2(4.0, -6.0), vec2(0.0, 0.0)].map(|corner| line[0] + corner);
         painter.add(Shape::convex_polygon(above.into(), look.text, Stroke::NONE));
     }
-    let response = ui.interact(strip, ui.scope_id().with(("lanes", column.id)), Sense::click_and_drag());
+    let response = ui.interact(strip, ui.scope_id().with(("lanes", column.id)), Sense::hover());
     widgets::describe(&response, &run.name(language), || budget_text(run, language));
-    let at = response.interact_pointer_pos()?;
-    Some(f64::from(((at.x - strip.left()) / strip.width()).clamp(0.0, 1.0)))
+    column.lanes = Some(drawn);
 }
 
 /// Paints the machines' numbers, every nth if lanes are low.

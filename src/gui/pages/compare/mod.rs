@@ -20,7 +20,7 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, word};
 use crate::sim::{Change, Trial};
 use crate::time::Time;
-use crate::view::{ComparedRun, Playback, RATES, Timeline, trial_name};
+use crate::view::{ComparedRun, Playback, RATES, TimeWindow, Timeline, trial_name};
 use columns::ColumnAction;
 use findings::Findings;
 
@@ -68,8 +68,8 @@ struct CompareColumn {
     /// The run of the trial; `None` until it has ended.
     run: Option<Box<ComparedRun>>,
     texture: CanvasTexture,
-    /// Cached drawing of the lanes, with its size and the end of its time window.
-    lanes: Option<(egui::Vec2, Time, Timeline)>,
+    /// Cached drawing of the lanes, with its size and its time window.
+    lanes: Option<(egui::Vec2, TimeWindow, Timeline)>,
 }
 
 impl Default for Compare {
@@ -277,7 +277,7 @@ impl Compare {
         for changes in strategies.into_iter().map(bare) {
             self.add(changes);
         }
-        self.findings.pair = [0, self.columns.len() - 1];
+        (self.findings.pair, self.findings.window) = ([0, self.columns.len() - 1], TimeWindow::default());
         (self.time, self.is_paced) = (Playback::from_start(), false);
         self.run(session);
     }

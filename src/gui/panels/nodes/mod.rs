@@ -7,6 +7,7 @@ use egui::{Align2, Color32, Rect, Response, ScrollArea, Sense, Stroke, StrokeKin
 use crate::balance::NodeId;
 use crate::gui::input::machine_menu;
 use crate::gui::input::selection::Selection;
+use crate::gui::input::speed_slider::{self, recorded_hint};
 use crate::gui::session::{Phase, Session};
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets;
@@ -34,6 +35,8 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
     let look = Look::of(ui.ctx());
     let rows = node_rows(session.stage().state(), session.now());
     let grid = RowGrid::new(rows.len(), ui.available_size().into());
+    // Where rows scroll, the wheel must not change a speed under the mouse.
+    let takes_wheel = grid.height() <= ui.available_height() + 1.0;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), grid.height()), Sense::hover());
         for column in 0..grid.columns {
@@ -58,9 +61,10 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
                 selection.toggle(Subject::Node(row.node));
             }
             figures(ui, &layout, row, session, look);
-            controls(ui, &layout, row.node, session, look);
-            machine_menu::on(&response, session, row.node, look);
-            machine_menu::on_activity(ui, (layout.activity, layout.row), session, row, look);
+            controls(ui, &layout, row.node, (session, takes_wheel), look);
+            machine_menu::on(&response, session, selection, row.node, look);
+            let place = (layout.activity, layout.row);
+            machine_menu::on_activity(ui, place, (session, selection), row, look);
         }
     });
 }
@@ -162,20 +166,23 @@ fn figures(ui: &Ui, layout: &RowLayout, row: &NodeRow, session: &Session, look: 
 }
 
 /// Shows slider, number field and pause button of a machine's speed.
-fn controls(ui: &mut Ui, layout: &RowLayout, node: NodeId, session: &mut Session, look: Look) {
+fn controls(ui: &mut Ui, layout: &RowLayout, node: NodeId, (session, takes_wheel): (&mut Session, bool), look: Look) {
     let language = session.language();
     let name = node_name(node);
     let enabled = !session.is_recorded();
     let can_pause = enabled && session.stage().phase == Phase::Running;
     let at = |rect: Rect, salt: &str| UiBuilder::new().max_rect(rect).id_salt((salt, node));
-    ui.scope_builder(at(layout.slider, "slider"), |ui| speed_slider(ui, node, layout.slider.width(), session));
+    let width = layout.slider.width();
+    ui.scope_builder(at(layout.slider, "slider"), |ui| speed_slider::show(ui, node, width, session, takes_wheel));
     // The column has room for one decimal.
     let before = (session.speed(node) * 1e3).round() / 10.0;
     let mut percent = before;
     ui.scope_builder(at(layout.speed, "value"), |ui| {
         ui.add_enabled_ui(enabled, |ui| {
             let name = say!(language, "Exact speed of machine {name}", "Velocidade exata da máquina {name}");
-            widgets::number_field(ui, &mut percent, 0.0..=100.0, " %", layout.speed.width(), (&name, language));
+            let width = layout.speed.width();
+            let field = widgets::number_field(ui, &mut percent, 0.0..=100.0, " %", width, (&name, language));
+            field.on_disabled_hover_text(recorded_hint(language));
         });
     });
     if percent != before {
@@ -194,28 +201,14 @@ fn controls(ui: &mut Ui, layout: &RowLayout, node: NodeId, session: &mut Session
         (false, false) => (Icon::Pause, look.quiet),
     };
     icons::paint(ui.painter(), icon, Rect::from_center_size(layout.pause.center(), Vec2::splat(1.75 * GRID)), ink);
-    let hint = if paused {
+    let hint = if !enabled {
+        recorded_hint(language)
+    } else if paused {
         word!(language, "Resume this machine", "Retomar esta máquina")
     } else {
         word!(language, "Pause this machine", "Pausar esta máquina")
     };
-    if response.on_hover_text(hint).clicked() && can_pause {
+    if widgets::hint_above(response, hint).clicked() && can_pause {
         session.toggle_node_pause(node);
-    }
-}
-
-/// Shows the slider of a machine's speed.
-pub fn speed_slider(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session) {
-    let language = session.language();
-    let colour = theme::colour(session.stage().colours[usize::from(node)]);
-    let before = (session.speed(node) * 100.0).round();
-    let mut percent = before;
-    ui.add_enabled_ui(!session.is_recorded(), |ui| {
-        let name = node_name(node);
-        let name = say!(language, "Speed of machine {name}", "Velocidade da máquina {name}");
-        widgets::slider(ui, &mut percent, (0.0..=100.0, true), width, colour, &name);
-    });
-    if percent != before {
-        session.change(Gesture::Speed(node), |settings| settings.set_speed(node, percent / 100.0));
     }
 }

@@ -155,8 +155,16 @@ impl RowLayout {
             spare -= if fits { width } else { 0.0 };
             fits
         };
-        let (has_rate, has_idle) = (room(rate_width), room(6.0 * GRID));
-        let (has_done, has_bar) = (room(number_width), room(9.0 * GRID));
+        let (idle_width, bar_width) = (6.0 * GRID, 8.5 * GRID);
+        let ([has_done, has_bar], [has_rate, has_idle]);
+        if density == Density::Normal {
+            [has_done, has_bar] = [room(number_width), room(bar_width)];
+            [has_rate, has_idle] = [room(rate_width), room(idle_width)];
+        } else {
+            // A bar in a low row shows little.
+            [has_rate, has_idle] = [room(rate_width), room(idle_width)];
+            [has_done, has_bar] = [room(number_width), room(bar_width)];
+        }
         // From the left edge to the slider, its width, that of the speed and of the pause button, and of the activity.
         let [before, slider, speed, pause, activity] =
             if is_compact { [3.5, 6.0, 6.5, 2.5, 9.5] } else { [4.5, 8.0, 7.5, 3.0, 10.0] }.map(|width| width * GRID);

@@ -1,4 +1,4 @@
-//! The settings at the left: those that take effect at once, and those that restart the run.
+//! The settings at the left: machines, network, and picture.
 
 mod own_links;
 mod sharing;
@@ -11,8 +11,9 @@ use crate::gui::settings::pace::Pace;
 use crate::gui::settings::speed_preset::SpeedPreset;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::explained::explained;
+use crate::gui::widgets::slider::{Scale, slider};
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, choice_buttons, number_field, popup_frame, slider};
+use crate::gui::widgets::{Emphasis, button, choice_buttons, number_field, popup_frame};
 use crate::language::{Language, comma, say, word};
 use crate::picture::{Quality, Size};
 use crate::view::{Definition, count, two_digits};
@@ -57,11 +58,17 @@ impl SetupPanel {
             // With these distances everything is visible in a window of 1280 × 800.
             ui.spacing_mut().item_spacing.y = 2.0;
             ui.spacing_mut().interact_size.y = 3.5 * GRID;
-            heading(ui, word!(language, "Takes effect at once", "Vale de imediato"), look);
-            immediate_settings(ui, &mut draft, look, language);
-            ui.add_space(GRID);
-            heading(ui, word!(language, "Restarts the run", "Reinicia a execução"), look);
-            restarting_settings(ui, &mut draft, look, language);
+            machines(ui, &mut draft, look, language);
+            ui.add_space(0.5 * GRID);
+            network(ui, &mut draft, look, language);
+            ui.add_space(0.5 * GRID);
+            let restarts = word!(language, "restarts the run", "reinicia a execução");
+            heading(ui, word!(language, "The picture", "A imagem"), restarts, look);
+            picture(ui, &mut draft, look, language);
+            pace(ui, &mut draft, look, language);
+            if session.always_reloads() {
+                always_reload(ui, session, look, language);
+            }
             ui.add_space(GRID);
             let name = word!(language, "Back to the demonstration", "Voltar à demonstração");
             let hint = word!(
@@ -86,10 +93,18 @@ impl SetupPanel {
     }
 }
 
+/// Shows the check box that takes back the answer *Always* to a changed scene.
+fn always_reload(ui: &mut Ui, session: &mut Session, look: Look, language: Language) {
+    let mut always = true;
+    let text = word!(language, "Reload a changed scene at once", "Recarregar a cena que mudou");
+    ui.checkbox(&mut always, RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
+    session.set_always_reload(always);
+}
+
 /// Shows the panel for a recorded run, whose settings are fixed.
 fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
     let language = session.language();
-    heading(ui, word!(language, "A recorded run", "Uma execução gravada"), look);
+    heading(ui, word!(language, "A recorded run", "Uma execução gravada"), "", look);
     let text = word!(
         language,
         "A recorded run cannot be changed. Make it live: then its scene is traced again with the same settings, and \
@@ -106,9 +121,11 @@ fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
 /// Width of a number field, in points.
 const VALUE_WIDTH_PT: f32 = 12.0 * GRID;
 
-/// Shows the settings that take effect at once: speeds and latency.
-fn immediate_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    let width = ui.available_width();
+/// Shows the settings of the machines: their speeds, their number, and how they share the work.
+fn machines(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
+    let (name, at_once) =
+        word!(language, ("Machines", "speeds at once, rest restarts"), ("Máquinas", "velocidade já, resto reinicia"));
+    heading(ui, name, at_once, look);
     let on = SpeedPreset::ALL.into_iter().find(|preset| draft.has_preset(*preset));
     egui::Grid::new("presets").spacing([GRID / 2.0, GRID / 2.0]).show(ui, |ui| {
         for (i, preset) in SpeedPreset::ALL.into_iter().enumerate() {
@@ -135,51 +152,46 @@ fn immediate_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: L
             draft.set_preset(SpeedPreset::Random);
         }
     });
-    labelled_row(
-        ui,
-        (word!(language, "Latency of a hop", "Latência de um salto"), Definition::LATENCY, language),
-        look,
-        |ui| {
-            let name = word!(language, "Latency in milliseconds", "Latência em milissegundos");
-            number_field(
-                ui,
-                &mut draft.latency,
-                0.0..=Settings::MAX_LATENCY_MS,
-                " ms",
-                VALUE_WIDTH_PT,
-                (name, language),
-            );
-        },
-    );
+    number_of_machines(ui, draft, look, language);
+    sharing::sharing(ui, draft, look, language);
+}
+
+/// Shows the settings of the network: latency, the parent's time for a message, and bandwidth.
+fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
+    let width = ui.available_width();
+    let (name, at_once) =
+        word!(language, ("Network", "latency at once, rest restarts"), ("Rede", "latência já, resto reinicia"));
+    heading(ui, name, at_once, look);
+    let hop = word!(language, "Latency of a hop", "Latência de um salto");
+    labelled_row(ui, (hop, Definition::LATENCY, language), look, |ui| {
+        let name = word!(language, "Latency in milliseconds", "Latência em milissegundos");
+        number_field(ui, &mut draft.latency, 0.0..=Settings::MAX_LATENCY_MS, " ms", VALUE_WIDTH_PT, (name, language));
+    });
     // A square root, because latencies below half a second matter most.
     let mut root = draft.latency.sqrt();
     let max = Settings::MAX_LATENCY_MS.sqrt();
     let name = word!(language, "Latency slider", "Controle da latência");
-    if slider(ui, &mut root, (0.0..=max, false), width - GRID, look.accent, name).changed() {
+    if slider(ui, &mut root, Scale::Linear(0.0, max), width - GRID, look.accent, name).changed() {
         draft.latency = (root * root).round();
     }
+    sharing::network(ui, draft, look, language);
 }
 
-/// Shows the settings that restart the run.
-fn restarting_settings(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
+/// Shows the number of machines.
+fn number_of_machines(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     let width = ui.available_width();
     let mut nodes = draft.speeds.len() as u32;
-    labelled_row(ui, (word!(language, "Machines", "Máquinas"), Definition::MACHINE, language), look, |ui| {
+    labelled_row(ui, (word!(language, "How many", "Quantas"), Definition::MACHINE, language), look, |ui| {
         let name = word!(language, "Number of machines", "Número de máquinas");
         number_field(ui, &mut nodes, 1..=Settings::MAX_NODES as u32, "", VALUE_WIDTH_PT, (name, language));
     });
     let mut dragged = f64::from(nodes);
     let name = word!(language, "Machines slider", "Controle das máquinas");
-    slider(ui, &mut dragged, (1.0..=Settings::MAX_NODES as f64, true), width - GRID, look.accent, name);
+    slider(ui, &mut dragged, Scale::Whole(1.0, Settings::MAX_NODES as f64), width - GRID, look.accent, name);
     nodes = dragged as u32;
     if nodes as usize != draft.speeds.len() {
         draft.set_nodes(nodes as usize);
     }
-    sharing::sharing(ui, draft, look, language);
-    sharing::network(ui, draft, look, language);
-    ui.add_space(GRID);
-    picture(ui, draft, look, language);
-    pace(ui, draft, look, language);
 }
 
 /// Shows the settings of the picture.
@@ -301,9 +313,16 @@ fn pace(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
     }
 }
 
-/// Shows the heading of a group.
-fn heading(ui: &mut Ui, text: &str, look: Look) {
-    ui.label(RichText::new(text).font(theme::strong(theme::BODY)).color(look.text));
+/// Shows the heading of a group, and which of its settings take effect at once.
+fn heading(ui: &mut Ui, text: &str, effect: &str, look: Look) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(text).font(theme::strong(theme::BODY)).color(look.text));
+        if !effect.is_empty() {
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                ui.label(RichText::new(effect).font(theme::regular(theme::SMALL)).color(look.quiet));
+            });
+        }
+    });
 }
 
 /// Shows an explanation of the row above.
