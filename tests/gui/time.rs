@@ -161,7 +161,7 @@ fn found_moment_is_shown_and_the_time_stops_there() {
     window.run_steps(4);
     assert!(matches!(window.state().selection(), Some(Subject::Message(_))), "{:?}", window.state().selection());
     let said = window.get_by_label("Selected").value().unwrap_or_default();
-    assert!(said.contains(" had traced ") && said.contains(" that waited with machine "), "{said}");
+    assert!(said.contains(" in proportion to atoms traced, ") && said.contains(" that waited with machine "), "{said}");
     let then = session(&window).now();
     window.run_steps(5);
     assert_eq!(session(&window).now(), then);

@@ -349,8 +349,8 @@ impl App {
         self.highlight = details.map(|details| details.highlight(stage.state())).unwrap_or_default();
     }
 
-    /// Shows the picture and, beside it, the ring or the inspector. In a lesson the timeline takes the place of the ring:
-    /// a lesson's text leaves no room below the picture, and its machines have nothing to set.
+    /// Shows the picture and, beside it, the ring or the inspector. In a lesson the timeline takes the place of the
+    /// ring: a lesson's text leaves no room below the picture, and its machines have nothing to set.
     fn main_area(&mut self, ui: &mut Ui, sheet: f32) {
         let area = ui.available_rect_before_wrap().shrink2(egui::vec2(2.0 * GRID, GRID));
         // In less height both would be cut off.

@@ -5,7 +5,8 @@ use crate::view::state::atom_state::AtomState;
 use crate::view::state::run_state::RunState;
 
 /// Returns the machines whose bands have the cheapest and the costliest atoms so far, of the machines at full speed.
-/// `None` if a run has no equal bands, if too few atoms of any of these bands are traced, or if the bands differ little.
+/// `None` if a run has no equal bands, if too few atoms of any of these bands are traced, or if the bands differ
+/// little.
 pub fn cheapest_and_costliest(state: &RunState) -> Option<[NodeId; 2]> {
     /// Fewer atoms of a band say little about it: the answer would soon change.
     const MIN_ATOMS: usize = 20;
