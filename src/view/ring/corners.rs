@@ -104,28 +104,32 @@ enum Sign {
     Part,
 }
 
-/// Returns the signs of a run, with their meanings.
+/// Returns the signs of a run, with their meanings. The shortest comes first: it is the highest, beside the widest part
+/// of the ring.
 fn key(layout: &RingLayout, state: &RunState, language: Language) -> Vec<(Sign, &'static str)> {
-    let mut key = vec![
-        (Sign::Arc, word!(language, "atoms left", "átomos que restam")),
-        (Sign::Results, word!(language, "traced atoms, to the parent", "átomos calculados, para o pai")),
-    ];
+    let arc = (Sign::Arc, word!(language, "atoms left", "átomos que restam"));
+    let results = (Sign::Results, word!(language, "results to the parent", "resultados ao pai"));
+    let mut key = vec![arc];
     if state.scheduler().is_ring() {
+        key.extend([
+            (Sign::Offer, word!(language, "offer of help", "oferta de ajuda")),
+            results,
+            (Sign::Parcel, word!(language, "atoms, giver to receiver", "átomos, de quem dá a quem recebe")),
+        ]);
         if layout.node_radius >= MIN_PIPE_RADIUS_PX {
             key.push((
                 Sign::Pipe,
                 word!(language, "last two atoms, which it keeps", "dois últimos átomos, que ficam com ela"),
             ));
         }
-        key.extend([
-            (Sign::Offer, word!(language, "offer of help", "oferta de ajuda")),
-            (Sign::Parcel, word!(language, "atoms, giver to receiver", "átomos, de quem dá a quem recebe")),
-        ]);
     } else if state.scheduler().is_farm() {
         key.extend([
             (Sign::Request, word!(language, "request for atoms", "pedido de átomos")),
             (Sign::Part, word!(language, "answer of n atoms", "resposta de n átomos")),
+            results,
         ]);
+    } else {
+        key.push(results);
     }
     key
 }
