@@ -30,6 +30,12 @@ fn assert_explained(window: &mut Window, definitions: &[Definition]) {
         let caption = caption(window, name);
         window.hover_at(caption.center());
         window.run_steps(4);
+        // Something that moves under the pointer hides a tooltip for a moment.
+        for _ in 0..20 {
+            if window.query_by_label(text).is_none() {
+                window.step();
+            }
+        }
         let tooltip = window.query_by_label(text).unwrap_or_else(|| panic!("no tooltip of {name}")).rect();
         assert!(!tooltip.intersects(caption), "{name} at {caption:?} is covered by {tooltip:?}");
         window.hover_at(egui::Pos2::ZERO);
