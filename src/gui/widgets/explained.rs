@@ -8,9 +8,12 @@ use crate::view::Definition;
 
 /// Shows a definition when the pointer rests on a widget, and does not cover the widget.
 pub fn explained(response: Response, definition: Definition, language: Language) -> Response {
-    let mut tooltip = Tooltip::for_enabled(&response).width(44.0 * GRID);
-    tooltip.popup = tooltip.popup.align(RectAlign::TOP_START);
-    tooltip.show(|ui| show(ui, definition, language));
+    // egui keeps a tooltip open while the pointer is in its widget's rectangle, even if a page covers the widget.
+    if response.contains_pointer() {
+        let mut tooltip = Tooltip::for_enabled(&response).width(44.0 * GRID);
+        tooltip.popup = tooltip.popup.align(RectAlign::TOP_START);
+        tooltip.show(|ui| show(ui, definition, language));
+    }
     response
 }
 

@@ -272,7 +272,9 @@ fn menu_row(ui: &mut Ui, text: &str, key: &str, look: Look) -> Response {
 pub fn hint_above(response: Response, text: &str) -> Response {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_description(text));
     let mut tooltip = Tooltip::for_widget(&response);
-    tooltip.popup = tooltip.popup.open(Tooltip::should_show_tooltip(&response, true)).align(RectAlign::TOP);
+    // egui keeps a tooltip open while the pointer is in its widget's rectangle, even if a page covers the widget.
+    let is_open = response.contains_pointer() && Tooltip::should_show_tooltip(&response, true);
+    tooltip.popup = tooltip.popup.open(is_open).align(RectAlign::TOP);
     tooltip.popup = tooltip.popup.align_alternatives(&[RectAlign::TOP_START, RectAlign::TOP_END]);
     tooltip.show(|ui| ui.label(text));
     response
