@@ -204,6 +204,10 @@ fn result(ui: &mut Ui, session: &Session, look: Look) {
         let corner = pos2(x, area.top() - if is_high { 0.5 * GRID } else { 0.0 });
         let place = Rect::from_min_size(corner, figure_size)
             .union(Rect::from_min_size(if is_high { below } else { beside }, caption_size));
+        // A figure is left out rather than cut off.
+        if place.right() > area.right() {
+            break;
+        }
         ui.painter().galley(corner, figure, look.text);
         ui.painter().galley(if is_high { below } else { beside }, caption, look.quiet);
         explain_at(ui, (place, 0), definition, language);
