@@ -20,13 +20,15 @@ pub fn cheapest_and_costliest(state: &RunState) -> Option<[NodeId; 2]> {
     let bands = state.division().bands(state.nodes().len());
     let mean = |(_, band): &(NodeId, std::ops::Range<u32>)| {
         let atoms = state.atom_states().get(band.start as usize..band.end as usize)?;
-        let cost = |atom: &AtomState| match atom {
-            AtomState::Traced { cost, .. } => Some(f64::from(*cost)),
-            _ => None,
-        };
-        let costs: Vec<f64> = atoms.iter().filter_map(cost).collect();
-        let is_enough = costs.len() >= MIN_ATOMS.max((MIN_SHARE * band.len() as f64) as usize);
-        is_enough.then(|| costs.iter().sum::<f64>() / costs.len() as f64)
+        let (mut traced, mut sum) = (0, 0.0);
+        for atom in atoms {
+            if let AtomState::Traced { cost, .. } = atom {
+                traced += 1;
+                sum += f64::from(*cost);
+            }
+        }
+        let is_enough = traced >= MIN_ATOMS.max((MIN_SHARE * band.len() as f64) as usize);
+        is_enough.then(|| sum / traced as f64)
     };
     let is_at_full_speed = |(node, _): &(NodeId, std::ops::Range<u32>)| {
         let of = &state.nodes()[usize::from(*node)];
