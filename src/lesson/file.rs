@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::error::{InvalidLesson, Part, Problem};
 use super::{
-    BUILT_IN, Claim, Lesson, LowerView, MAX_ATOMS, MAX_MACHINES, MAX_SIDE_PX, Moment, Question, RunPlan, Step, Words,
+    BUILT_IN, Claim, Lesson, MAX_ATOMS, MAX_MACHINES, MAX_SIDE_PX, Moment, Question, RunPlan, Step, StepView, Words,
 };
 use crate::balance::{Condition, NodeId, Remedies, Remedy, Strategy};
 use crate::picture::Size;
@@ -126,7 +126,7 @@ struct StepFile {
     #[serde(default)]
     machine: Option<usize>,
     #[serde(default)]
-    look: LowerView,
+    look: StepView,
     #[serde(default)]
     ask: Option<QuestionFile>,
     #[serde(default)]

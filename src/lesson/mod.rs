@@ -90,18 +90,18 @@ pub struct Step {
     pub until: Option<Moment>,
     /// The node of the machine that stands out.
     pub machine: Option<NodeId>,
-    /// The view below the picture and the ring.
-    pub look: LowerView,
+    /// The view beside the picture.
+    pub look: StepView,
     /// The question that is answered before the run goes on.
     pub ask: Option<Question>,
     /// The claims about the runs.
     pub holds: Vec<Claim>,
 }
 
-/// The view below the picture and the ring.
+/// The view beside the picture in a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-pub enum LowerView {
-    /// The table of machines.
+pub enum StepView {
+    /// The ring of machines.
     #[default]
     Machines,
     /// The timeline, with a lane for each machine.

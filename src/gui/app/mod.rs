@@ -59,7 +59,7 @@ pub struct App {
     /// The open tab of the Help page.
     help: Option<HelpTab>,
     timeline: TimelinePanel,
-    /// Whether the timeline replaces the table of machines.
+    /// Whether the timeline replaces the table of machines, or in a lesson the ring.
     shows_timeline: bool,
     split: Split,
     selection: Selection,

@@ -3,7 +3,7 @@
 use super::rate_for;
 use crate::gui::session::{PreparedLesson, Session};
 use crate::language::Language;
-use crate::lesson::{LowerView, Step};
+use crate::lesson::{Step, StepView};
 use crate::time::Time;
 use crate::view::Subject;
 
@@ -101,7 +101,7 @@ impl LessonProgress {
 
     /// Whether the step shows the timeline.
     pub fn wants_timeline(&self) -> bool {
-        self.now().look == LowerView::Timeline
+        self.now().look == StepView::Timeline
     }
 
     /// Answers the question with the answer at this index, and plays to the end of the step.
