@@ -1,10 +1,12 @@
 //! Compilation of solids: drops parts that can never be seen, and brings every composition into the form in which a
 //! ray needs least work.
 
+use super::bounds::Extent;
 use super::id::NodeIndex;
 use super::merge::Operation;
+use super::outline::{Outline, OutlineKind};
 use super::tree::{Node, NodeKind, Tree};
-use super::{Leaf, LeafIndex, Pass, Passes, RootId, Solid};
+use super::{LeafIndex, Pass, Passes, RootId, Solid};
 use crate::geometry::{Aabb, split};
 
 /// A union of more operands than this becomes a tree of unions.
@@ -18,26 +20,31 @@ impl Tree {
 
     /// Compiles a solid. Returns its root and a box around it, or nothing if the solid is proved empty.
     pub fn add(&mut self, solid: &Solid) -> Option<(RootId, Aabb)> {
-        self.add_node(solid).map(|(node, bounds)| (RootId(node.0), bounds))
+        let outline = Outline::new(solid, self.passes);
+        self.add_node(outline, &Extent::ALL).map(|(node, bounds)| (RootId(node.0), bounds))
     }
 
-    fn add_node(&mut self, solid: &Solid) -> Option<(NodeIndex, Aabb)> {
-        let (operation, solids) = match solid {
-            Solid::Placed { primitive, scene_from_local, tag } => {
-                let shapes = self.passes.has(Pass::SceneShapes);
-                let (leaf, bounds) = Leaf::new(primitive, scene_from_local, *tag, shapes);
+    /// Adds a solid of which only the part within `around` matters.
+    fn add_node(&mut self, outline: Outline, around: &Extent) -> Option<(NodeIndex, Aabb)> {
+        let mut within = outline.extent;
+        if self.passes.has(Pass::FoundBounds) {
+            within.add(around);
+            within.close();
+        }
+        let (operation, operands) = match outline.kind {
+            OutlineKind::Leaf(leaf) => {
                 let index = LeafIndex(self.leaves.len() as u32);
                 self.leaves.push(leaf);
-                return Some((self.push(NodeKind::Leaf(index), bounds), bounds));
+                return Some((self.push(NodeKind::Leaf(index), within.bounds), within.bounds));
             }
-            Solid::Union(solids) => (Operation::Union, solids),
-            Solid::Intersection(solids) => (Operation::Intersection, solids),
-            Solid::Difference(solids) => (Operation::Difference, solids),
+            OutlineKind::Composition(operation, operands) => (operation, operands),
         };
+        // A union's operands reach as far as each of them does.
+        let around = if operation == Operation::Union { around } else { &within };
         let mut children: Vec<NodeIndex> = Vec::new();
-        let mut bounds = if operation == Operation::Intersection { Aabb::ALL } else { Aabb::EMPTY };
-        for (index, solid) in solids.iter().enumerate() {
-            let child = self.add_node(solid);
+        let mut bounds = if operation == Operation::Intersection { within.bounds } else { Aabb::EMPTY };
+        for (index, operand) in operands.into_iter().enumerate() {
+            let child = self.add_node(operand, around);
             match operation {
                 Operation::Union => {
                     let Some((child, child_bounds)) = child else { continue };

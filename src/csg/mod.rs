@@ -2,10 +2,12 @@
 //! A hit carries the tag of a surface; this module knows no materials and no lights.
 
 mod boundary;
+mod bounds;
 mod build;
 mod coincidence;
 mod id;
 mod merge;
+mod outline;
 mod passes;
 mod primitive;
 mod quadratic;

@@ -6,6 +6,8 @@
 pub enum Pass {
     /// Drops solids that are proved empty, and operands that lie outside the solid that they are subtracted from.
     CullEmpty,
+    /// Finds a box for what is bounded only by what it is intersected with or subtracted from.
+    FoundBounds,
     /// Makes a union of many operands a tree of unions of neighbours.
     UnionTrees,
     /// Computes the intersection of convex primitives as one span.
@@ -24,8 +26,9 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::CullEmpty,
+        Self::FoundBounds,
         Self::UnionTrees,
         Self::ConvexSpans,
         Self::SceneShapes,
@@ -39,6 +42,7 @@ impl Pass {
     pub fn description(self) -> &'static str {
         match self {
             Self::CullEmpty => "empty solids and subtrahends out of reach are dropped",
+            Self::FoundBounds => "quadrics and half-spaces get boxes from what they are composed with",
             Self::UnionTrees => "a union of many is a tree of unions of neighbours",
             Self::ConvexSpans => "an intersection of convex primitives is one span",
             Self::SceneShapes => "balls and axis-aligned boxes are stored in scene coordinates",

@@ -1,0 +1,132 @@
+//! The intersection of half-spaces, and how far it reaches in a direction.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::AXES;
+use crate::geometry::Aabb;
+
+/// All points with `normal · p ≤ offset`; `normal` has length 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Plane {
+    pub normal: DVec3,
+    pub offset: f64,
+}
+
+/// The points on the inner side of all planes.
+#[derive(Clone, Debug)]
+pub(super) struct Polyhedron(Vec<Plane>);
+
+/// More planes than this are left out.
+const MAX_PLANES: usize = 40;
+
+impl Plane {
+    /// The half-space `normal · p ≤ offset`, carried by a map.
+    pub fn placed(normal: DVec3, offset: f64, scene_from_local: &DAffine3) -> Self {
+        let local_from_scene = scene_from_local.inverse();
+        let carried = local_from_scene.matrix3.transpose() * normal;
+        let length = carried.length();
+        Self { normal: carried / length, offset: (offset - normal.dot(local_from_scene.translation)) / length }
+    }
+
+    /// The other side of the plane.
+    pub fn flipped(self) -> Self {
+        Self { normal: -self.normal, offset: -self.offset }
+    }
+}
+
+impl Polyhedron {
+    /// Contains all points.
+    pub const ALL: Self = Self(Vec::new());
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    pub fn planes(&self) -> &[Plane] {
+        &self.0
+    }
+
+    /// Adds a plane. Of parallel planes only the closest is kept.
+    pub fn add(&mut self, plane: Plane) {
+        if let Some(known) = self.0.iter_mut().find(|known| known.normal == plane.normal) {
+            known.offset = known.offset.min(plane.offset);
+        } else if self.0.len() < MAX_PLANES {
+            self.0.push(plane);
+        }
+    }
+
+    pub fn add_all(&mut self, planes: impl IntoIterator<Item = Plane>) {
+        planes.into_iter().for_each(|plane| self.add(plane));
+    }
+
+    pub fn extend(&mut self, other: &Self) {
+        self.add_all(other.0.iter().copied());
+    }
+
+    /// Adds the finite sides of a box.
+    pub fn add_box(&mut self, bounds: Aabb) {
+        for (axis, normal) in AXES.into_iter().enumerate() {
+            let sides = [(normal, bounds.max[axis]), (-normal, -bounds.min[axis])];
+            self.add_all(
+                sides.into_iter().filter(|(_, offset)| offset.is_finite()).map(|(n, o)| Plane { normal: n, offset: o }),
+            );
+        }
+    }
+
+    /// A box around the polyhedron; infinite where the polyhedron is.
+    pub fn bounds(&self, reach: f64) -> Aabb {
+        let along = |direction: DVec3| self.support(direction, reach);
+        Aabb { min: AXES.map(|axis| -along(-axis)).into(), max: AXES.map(along).into() }
+    }
+
+    /// The greatest `direction · p` of the polyhedron's points, or more; infinite if it has no bound. `direction` has
+    /// length 1; coordinates are at most `reach`.
+    ///
+    /// If `direction` = Σ λ n with λ ≥ 0, then `direction · p` ≤ Σ λ offset: each such sum is a bound, and the least
+    /// one, which needs three normals at most, is the greatest value (duality of linear programs; Schrijver, *Theory of
+    /// Linear and Integer Programming*, §7.4). Unlike a search for corners, rounding cannot make it too small by more
+    /// than the part of `direction` that the sum misses.
+    pub fn support(&self, direction: DVec3, reach: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        let mut add = |of: [(f64, &Plane); 3]| {
+            let sum: DVec3 = of.iter().map(|(factor, plane)| *factor * plane.normal).sum();
+            let missed = (direction - sum).abs().element_sum();
+            if of.iter().all(|(factor, _)| *factor >= 0.0) && missed <= MAX_MISSED {
+                let bound: f64 = of.iter().map(|(factor, plane)| factor * plane.offset).sum();
+                least = least.min(bound + missed * reach);
+            }
+        };
+        for (at, a) in self.0.iter().enumerate() {
+            add([(direction.dot(a.normal), a), (0.0, a), (0.0, a)]);
+            for (next, b) in self.0[..at].iter().enumerate() {
+                if let Some([x, y]) = factors_of_two(direction, a.normal, b.normal) {
+                    add([(x, a), (y, b), (0.0, a)]);
+                }
+                for c in &self.0[..next] {
+                    let columns = DMat3::from_cols(a.normal, b.normal, c.normal);
+                    if columns.determinant().abs() > MIN_DETERMINANT {
+                        // A factor of −10⁻¹⁷ is a 0.
+                        let factors = columns.inverse() * direction;
+                        let rounded = factors.map(|factor| if factor.abs() < MAX_MISSED / 8.0 { 0.0 } else { factor });
+                        add([(rounded.x, a), (rounded.y, b), (rounded.z, c)]);
+                    }
+                }
+            }
+        }
+        least
+    }
+}
+
+/// The greatest part of a direction that a sum of normals may miss.
+const MAX_MISSED: f64 = 1e-12;
+/// Three normals that are closer to a plane than this give no bound that could be trusted.
+const MIN_DETERMINANT: f64 = 1e-6;
+
+/// The factors of two vectors of length 1 whose sum is closest to `direction`; none if they are parallel.
+fn factors_of_two(direction: DVec3, a: DVec3, b: DVec3) -> Option<[f64; 2]> {
+    let cosine = a.dot(b);
+    let determinant = 1.0 - cosine * cosine;
+    let (along_a, along_b) = (direction.dot(a), direction.dot(b));
+    let factors = [(along_a - cosine * along_b) / determinant, (along_b - cosine * along_a) / determinant];
+    (determinant > MIN_DETERMINANT).then_some(factors)
+}
