@@ -303,7 +303,7 @@ impl Leaf {
             Shape::Torus { frame, .. } => {
                 let q = frame.point_to_local(point);
                 // The direction from the nearest point of the circle.
-                let outward = 1.0 - 1.0 / q.x.hypot(q.z);
+                let outward = 1.0 - 1.0 / (q.x * q.x + q.z * q.z).sqrt();
                 frame.normal_to_scene(DVec3::new(q.x * outward, q.y, q.z * outward))
             }
             Shape::Quadric { centre, square, half_linear, .. } => {

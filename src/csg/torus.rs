@@ -25,17 +25,35 @@ pub(super) fn spans(tube: f64, o: DVec3, d: DVec3, on_surface: bool) -> Spans {
     if on_surface {
         return from_surface(tube, o, direction).spans(0.0, length);
     }
-    // Fused, with one rounding: from afar, d · shift alone would lose the digits that o + d · shift is left with.
     let shift = -o.dot(direction);
-    let [x, y, z] = [0, 1, 2].map(|axis| direction[axis].mul_add(shift, o[axis]));
-    from_closest_approach(tube, DVec3::new(x, y, z), direction).spans(shift, length)
+    // From afar, a rounded d · shift would lose the digits that o + d · shift is left with.
+    let product = direction * shift;
+    let closest = (o + product) + product_error(direction, shift, product);
+    from_closest_approach(tube, closest, direction).spans(shift, length)
 }
 
 /// The implicit function of the torus: below 0 inside, above 0 outside. It is a factor of F with F's sign, and accurate
 /// where F, for a thin tube, is a difference of nearly equal numbers.
 pub(super) fn implicit(tube: f64, q: DVec3) -> f64 {
-    let from_ring = q.x.hypot(q.z) - 1.0;
+    let from_ring = axis_distance(q) - 1.0;
     from_ring * from_ring + q.y * q.y - tube * tube
+}
+
+fn axis_distance(q: DVec3) -> f64 {
+    (q.x * q.x + q.z * q.z).sqrt()
+}
+
+/// The rounding error of `product` = `v` `factor` (Dekker, *A floating-point technique for extending the available
+/// precision*, 1971). Not a fused multiplication, which is a slow call where the processor may have none.
+fn product_error(v: DVec3, factor: f64, product: DVec3) -> DVec3 {
+    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
+    let scaled = v * SPLITTER;
+    let v_high = scaled - (scaled - v);
+    let v_low = v - v_high;
+    let scaled = factor * SPLITTER;
+    let high = scaled - (scaled - factor);
+    let low = factor - high;
+    ((v_high * high - product) + v_high * low + v_low * high) + v_low * low
 }
 
 /// Roots along a line, in order. Those of the quartic are even in number.
@@ -77,7 +95,7 @@ fn from_closest_approach(tube: f64, p: DVec3, u: DVec3) -> Roots {
     let extrema = slope.roots(&range, false);
     let value = |place: f64| {
         let q = p + u * place;
-        let ring = q.x.hypot(q.z);
+        let ring = axis_distance(q);
         let outward = (q.x * u.x + q.z * u.z) / ring;
         (implicit(tube, q), 2.0 * ((ring - 1.0) * outward + q.y * u.y))
     };
@@ -90,7 +108,7 @@ fn from_surface(tube: f64, o: DVec3, u: DVec3) -> Roots {
     let mut roots = Roots::default();
     // The range contains the start, whatever rounding says.
     let range = bounding_range(tube, o, u).map_or(0.0..0.0, |range| range.start.min(0.0)..range.end.max(0.0));
-    let (along, ring) = (o.dot(u), o.x.hypot(o.z));
+    let (along, ring) = (o.dot(u), axis_distance(o));
     // On the torus |o|² + 1 − tube² is twice the distance from the axis.
     let outward = (o.x * u.x + o.z * u.z) / ring;
     let cubic = Cubic([

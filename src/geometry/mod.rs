@@ -1,4 +1,6 @@
 //! Rays, boxes and affine maps, in f64.
+//!
+//! Functions beyond the root come from `libm`, which is the same on every computer: so are the pictures.
 
 mod parallel;
 mod split;
@@ -160,7 +162,7 @@ fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     // Both remainders are exact.
     let within_turn = degrees % 360.0;
     let quarters = (within_turn / 90.0).round();
-    let (sine, cosine) = (within_turn - 90.0 * quarters).to_radians().sin_cos();
+    let (sine, cosine) = libm::sincos((within_turn - 90.0 * quarters).to_radians());
     // A sum with 0 makes −0 a plain 0.
     match quarters.rem_euclid(4.0) as u8 {
         0 => (sine, cosine),

@@ -1,6 +1,7 @@
 //! The pixels of a picture, in linear light.
 
 use std::ops::Range;
+use std::sync::LazyLock;
 
 use super::Size;
 
@@ -56,11 +57,16 @@ impl Frame {
 
 /// Converts linear light to 8-bit sRGB (IEC 61966-2-1). Values outside 0…1 are clipped; NaN becomes black.
 pub fn srgb8(colour: Colour) -> [u8; 3] {
-    colour.map(|linear| {
-        let linear = linear.clamp(0.0, 1.0);
-        let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-        (encoded * 255.0).round() as u8
-    })
+    // A search needs no power for each pixel.
+    static LEAST: LazyLock<[f32; 255]> = LazyLock::new(|| std::array::from_fn(least_of_step));
+    colour.map(|linear| LEAST.partition_point(|&least| least <= linear) as u8)
+}
+
+/// The least linear value of step `index` + 1 of 255.
+fn least_of_step(index: usize) -> f32 {
+    let encoded = (index as f64 + 0.5) / 255.0;
+    let linear = if encoded <= 0.040_45 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) };
+    linear as f32
 }
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ impl Camera {
         let sight = self.look_at - self.eye;
         let right_direction = self.right();
         let upwards = right_direction.cross(sight).normalize();
-        let height = 2.0 * sight.length() * (self.field_of_view.to_radians() / 2.0).tan();
+        let height = 2.0 * sight.length() * libm::tan(self.field_of_view.to_radians() / 2.0);
         let by = (right_direction * right + upwards * up) * height;
         Self { eye: self.eye + by, look_at: self.look_at + by, ..*self }
     }

@@ -25,7 +25,7 @@ impl RayCamera {
         let up = right.cross(forward);
         let (width, height) = (f64::from(size.width()), f64::from(size.height()));
         // The image plane is at distance 1.
-        let plane_height = 2.0 * (camera.field_of_view.to_radians() / 2.0).tan();
+        let plane_height = 2.0 * libm::tan(camera.field_of_view.to_radians() / 2.0);
         let pixel = plane_height / height;
         Self {
             eye: camera.eye,

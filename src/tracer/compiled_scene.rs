@@ -47,17 +47,30 @@ pub(super) struct Shading {
 /// Phong's exponent. Whole exponents, the usual case, need no logarithm.
 #[derive(Debug)]
 pub(super) enum Exponent {
-    Whole(i32),
+    Whole(u32),
     Real(f64),
 }
 
 impl Exponent {
     pub fn raise(&self, base: f64) -> f64 {
         match *self {
-            Self::Whole(n) => base.powi(n),
-            Self::Real(n) => base.powf(n),
+            Self::Whole(n) => whole_power(base, n),
+            Self::Real(n) => libm::pow(base, n),
         }
     }
+}
+
+/// A power by squaring: two multiplications for each bit of the exponent.
+fn whole_power(base: f64, exponent: u32) -> f64 {
+    let (mut power, mut square, mut rest) = (1.0, base, exponent);
+    while rest > 0 {
+        if rest & 1 == 1 {
+            power *= square;
+        }
+        square *= square;
+        rest >>= 1;
+    }
+    power
 }
 
 impl CompiledScene {
@@ -163,7 +176,7 @@ impl Shading {
             kt,
             transmits: material.transmits(),
             exponent: if n.fract() == 0.0 && passes.has(Pass::IntegerPowers) {
-                Exponent::Whole(n as i32)
+                Exponent::Whole(n as u32)
             } else {
                 Exponent::Real(n)
             },

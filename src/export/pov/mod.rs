@@ -78,7 +78,7 @@ fn put_comments(text: &mut String, size: Size, unit: Unit, limits: &[PovLimit]) 
 
 fn put_camera(text: &mut String, camera: &Camera, background: DVec3, quality: &Quality) {
     // With `up` of length 1 this is the distance at which the picture's height is 1.
-    let distance = 0.5 / (camera.field_of_view.to_radians() / 2.0).tan();
+    let distance = 0.5 / libm::tan(camera.field_of_view.to_radians() / 2.0);
     put(
         text,
         format_args!(
