@@ -2,6 +2,7 @@
 
 use super::coincidence::{coincide, drop_slivers};
 use super::id::NodeIndex;
+use super::merge::merge;
 use super::tree::NodeKind;
 use super::{Crossing, LeafIndex, MaterialTag, Operation, RayStart, RootId, Surface, Tree};
 use crate::geometry::Ray;
@@ -45,11 +46,23 @@ impl Tree {
         self.node_diagram(root.node(), &crossings, ray, start)
     }
 
+    /// The crossings of a node by itself, without the boxes that leave out what does not matter to its solid.
     fn node_crossings(&self, node: NodeIndex, ray: &Ray, start: Option<Surface>) -> Vec<Crossing> {
-        const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-        let mut crossings = Vec::new();
-        self.push_crossings(node, ray, start, EVERYWHERE, &mut crossings);
-        crossings
+        match &self.nodes[node.index()].kind {
+            NodeKind::Leaf(leaf) => self.leaf_crossings(*leaf, ray, start),
+            NodeKind::Convex(leaves) => self.convex_span(leaves, ray, start).into_iter().flatten().collect(),
+            NodeKind::Composition { operation, children } => {
+                let mut crossings = Vec::new();
+                for (index, &child) in children.iter().enumerate() {
+                    let second = crossings.len();
+                    crossings.extend(self.node_crossings(child, ray, start));
+                    if index > 0 {
+                        merge(*operation, &mut crossings, 0, second, ray);
+                    }
+                }
+                crossings
+            }
+        }
     }
 
     /// The diagram of a node with these crossings.

@@ -86,14 +86,7 @@ impl Tree {
 
     /// Pushes the crossings of a node. May leave out spans outside `window`.
     #[inline(always)]
-    pub(super) fn push_crossings(
-        &self,
-        node: NodeIndex,
-        ray: &Ray,
-        start: Option<Surface>,
-        window: [f64; 2],
-        stack: &mut Stack,
-    ) {
+    fn push_crossings(&self, node: NodeIndex, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
         let Node { bounds, kind } = &self.nodes[node.index()];
         if bounds.entry(ray, window[0], window[1]).is_some() {
             self.push_crossings_within_bounds(kind, ray, start, window, stack);
@@ -183,7 +176,7 @@ impl Tree {
 
     /// Finds the one span of a ray in the intersection of convex leaves. As in [`merge`], of coincident faces the first
     /// leaf's is seen, and a span shorter than the tolerance is dropped.
-    fn convex_span(&self, leaves: &[LeafIndex], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
+    pub(super) fn convex_span(&self, leaves: &[LeafIndex], ray: &Ray, start: Option<Surface>) -> Option<[Crossing; 2]> {
         let (&first, others) = leaves.split_first()?;
         let [mut enter, mut leave] = span_crossings(first, self.leaf_spans(first, ray, start).first?);
         if leave.t <= enter.t + ray.tolerance(enter.t) {
