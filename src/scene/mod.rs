@@ -2,6 +2,7 @@
 
 mod file;
 mod media;
+mod repeat;
 mod resolve;
 mod syntax;
 mod validate;
