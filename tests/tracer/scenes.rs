@@ -4,7 +4,7 @@ use super::povray_scenes::{Case, cases, enlarge};
 use anel::csg::{MaterialTag, Primitive, Solid};
 use anel::export::to_pov;
 use anel::picture::{Colour, Quality, Size};
-use anel::scene::{BUILT_IN, Scene};
+use anel::scene::{BUILT_IN, SMALL_BUILT_IN, Scene};
 use anel::tracer::{RayKind, Scratch, Tracer};
 use glam::{DAffine3, DVec3};
 
@@ -83,7 +83,7 @@ fn every_primitive_is_used_by_a_scene() {
 /// Ray tracers treat overlapping glass in different ways, and all are to show the same picture.
 #[test]
 fn transmitting_solids_do_not_overlap() {
-    for (name, text) in BUILT_IN {
+    for (name, text) in SMALL_BUILT_IN {
         let scene = parse(name, text);
         let transmits = |solid: &&Solid| {
             let mut found = false;
@@ -107,7 +107,7 @@ fn transmitting_solids_do_not_overlap() {
 /// whole.
 #[test]
 fn split_union_looks_the_same() {
-    for (name, text) in BUILT_IN {
+    for (name, text) in SMALL_BUILT_IN {
         let scene = parse(name, text);
         let mut kept_whole = scene.clone();
         let around = Solid::Placed {
