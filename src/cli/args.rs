@@ -40,8 +40,8 @@ pub(super) enum CliCommand {
         /// The study
         #[arg(value_enum)]
         kind: StudyKind,
-        /// A scene file or a built-in scene [default: ten-objects; rivals, peer, needs and accuracy take all built-in
-        /// scenes; stability takes none]
+        /// A scene file or a built-in scene [default: ten-objects; rivals, peer, needs and accuracy take the six
+        /// small built-in scenes; stability takes none]
         #[arg(long)]
         scene: Option<PathBuf>,
         /// chaos: the number of runs [default: 10000; with --seed 1]

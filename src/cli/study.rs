@@ -9,7 +9,7 @@ use super::args::StudyKind;
 use super::{Failure, open, print, progress, tell};
 use crate::output::{check_writable, write_whole};
 use crate::picture::Size;
-use crate::scene::{BUILT_IN, Opened};
+use crate::scene::{Opened, SMALL_BUILT_IN};
 use crate::study::{Study, accuracy, chaos, needs, paper, peer, remedies, rivals, scale, stability};
 
 /// Does a study and writes its files into the directory `out`, which it creates if needed.
@@ -34,7 +34,7 @@ pub(super) fn study(
         (None, StudyKind::Stability) => Vec::new(),
         (Some(scene), _) => vec![scene],
         (None, StudyKind::Rivals | StudyKind::Peer | StudyKind::Needs | StudyKind::Accuracy) => {
-            BUILT_IN.iter().map(|(name, _)| Path::new(*name)).collect()
+            SMALL_BUILT_IN.iter().map(|(name, _)| Path::new(*name)).collect()
         }
         (None, _) => vec![Path::new("ten-objects")],
     };

@@ -2,6 +2,7 @@
 
 mod file;
 mod media;
+mod repeat;
 mod resolve;
 mod syntax;
 mod validate;
@@ -122,7 +123,15 @@ pub const BUILT_IN: &[(&str, &str)] = &[
     ("machine-part", include_str!("../../scenes/machine-part.ron")),
     ("corner", include_str!("../../scenes/corner.ron")),
     ("rings", include_str!("../../scenes/rings.ron")),
+    ("chessmen", include_str!("../../scenes/chessmen.ron")),
+    ("engine", include_str!("../../scenes/engine.ron")),
+    ("pits", include_str!("../../scenes/pits.ron")),
+    ("sphereflake", include_str!("../../scenes/sphereflake.ron")),
+    ("lattice", include_str!("../../scenes/lattice.ron")),
 ];
+
+/// The built-in scenes of at most a few hundred primitives, for tests and studies that trace every scene many times.
+pub const SMALL_BUILT_IN: &[(&str, &str)] = BUILT_IN.split_at(6).0;
 
 /// The text of a built-in scene.
 pub fn built_in(name: &str) -> Option<&'static str> {

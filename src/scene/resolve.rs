@@ -5,10 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::{DAffine3, DMat3, DVec3};
 use thiserror::Error;
 
+use super::repeat::Step;
 use super::syntax::{SceneFile, SolidFields, Transform};
+use super::validate::MAX_LEAVES;
 use super::{Material, Scene};
 use crate::csg::{MaterialTag, Primitive, QuadricCoefficients, Solid};
-use crate::geometry::{rotation, turn_y_to};
+use crate::geometry::turn_y_to;
 use crate::sentence;
 
 /// An error in a scene's names, nesting or transforms.
@@ -30,7 +32,7 @@ enum Problem {
     Circle(String),
     #[error("solids are nested more than {MAX_DEPTH} deep; use fewer levels")]
     TooDeep,
-    #[error("the scene has more than {MAX_LEAVES} primitives once its named solids are put in; use fewer")]
+    #[error("the scene has more than {MAX_LEAVES} primitives once its named solids and copies are put in; use fewer")]
     TooManyPrimitives,
     #[error("its transforms make a solid too large or too small to be computed with; check the factors of Scale")]
     OutOfRange,
@@ -42,8 +44,6 @@ impl ResolveError {
     }
 }
 
-/// The greatest number of leaves after named solids are put in; a scene with more is a mistake.
-const MAX_LEAVES: usize = 200_000;
 /// The greatest depth of solids in solids, uses of named solids included.
 const MAX_DEPTH: usize = 100;
 /// The tag of solids without a material.
@@ -105,13 +105,13 @@ impl<'a> NameResolver<'a> {
         | S::Union { material, transform, .. }
         | S::Intersection { material, transform, .. }
         | S::Difference { material, transform, .. }
+        | S::Repeat { material, transform, .. }
         | S::Use { material, transform, .. }) = solid;
         let tag = match material {
             None => tag,
             Some(name) => *self.tags.get(name).ok_or_else(|| unknown("material", name, self.tags.keys()))?,
         };
-        let map = transform.iter().fold(DAffine3::IDENTITY, |before, step| step.map() * before);
-        let outer = outer * map;
+        let outer = outer * Transform::map_of(transform);
         self.depth += 1;
         if self.depth > MAX_DEPTH {
             return Err(ResolveError::new(self.path.last().copied(), Problem::TooDeep));
@@ -120,6 +120,11 @@ impl<'a> NameResolver<'a> {
             S::Union { of, .. } => Solid::Union(self.all(of, outer, tag)?),
             S::Intersection { of, .. } => Solid::Intersection(self.all(of, outer, tag)?),
             S::Difference { of, .. } => Solid::Difference(self.all(of, outer, tag)?),
+            // The copies are counted as they are made, so that nested ones end with an error before they fill memory.
+            S::Repeat { count, step, of, .. } => {
+                let maps = Step::new(step).maps().take(*count);
+                Solid::Union(maps.map(|map| self.solid(of, outer * map, tag)).collect::<Result<_, _>>()?)
+            }
             S::Use { solid: name, .. } => self.used(name, outer, tag)?,
             leaf => self.leaf(leaf, outer, tag)?,
         };
@@ -165,16 +170,6 @@ impl<'a> NameResolver<'a> {
     }
 }
 
-impl Transform {
-    fn map(&self) -> DAffine3 {
-        match *self {
-            Self::Translate(by) => DAffine3::from_translation(by),
-            Self::Rotate(degrees) => DAffine3::from_mat3(rotation(degrees)),
-            Self::Scale(factors) => DAffine3::from_scale(factors),
-        }
-    }
-}
-
 /// The primitive of a leaf, and the map from its own coordinates to those of the scene file.
 fn primitive(leaf: &SolidFields) -> (Primitive, DAffine3) {
     match *leaf {
@@ -205,6 +200,7 @@ fn primitive(leaf: &SolidFields) -> (Primitive, DAffine3) {
         SolidFields::Union { .. }
         | SolidFields::Intersection { .. }
         | SolidFields::Difference { .. }
+        | SolidFields::Repeat { .. }
         | SolidFields::Use { .. } => unreachable!("these are no leaves: `solid` handles them"),
     }
 }

@@ -139,6 +139,16 @@ pub(super) enum SolidFields {
         #[serde(default)]
         transform: Vec<Transform>,
     },
+    /// Copies of a solid: the first as it is, each other one `step` further than the one before.
+    Repeat {
+        #[serde(deserialize_with = "validate::count")]
+        count: usize,
+        step: Vec<Transform>,
+        of: Box<SolidFields>,
+        material: Option<String>,
+        #[serde(default)]
+        transform: Vec<Transform>,
+    },
     Use {
         solid: String,
         material: Option<String>,

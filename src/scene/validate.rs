@@ -5,6 +5,8 @@ use std::fmt;
 use glam::DVec3;
 use serde::de::{self, Deserialize, Deserializer, Error, SeqAccess, Visitor};
 
+/// The greatest number of leaves after named solids and copies are put in; a scene with more is a mistake.
+pub(super) const MAX_LEAVES: usize = 200_000;
 /// The greatest absolute coordinate. Squares and products of a few coordinates stay finite.
 const MAX_COORDINATE: f64 = 1e12;
 
@@ -25,6 +27,12 @@ pub(super) fn base_radius<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::
         ));
     }
     check(radius, |x| (1e-12..=MAX_COORDINATE).contains(&x), "greater than 0 (from 1e-12 to 1e12)")
+}
+
+/// Reads a number of copies. Each has at least one primitive.
+pub(super) fn count<'de, D: Deserializer<'de>>(from: D) -> Result<usize, D::Error> {
+    let is_valid = |x: f64| x.fract() == 0.0 && (1.0..=MAX_LEAVES as f64).contains(&x);
+    check(f64::deserialize(from)?, is_valid, &format!("a whole number from 1 to {MAX_LEAVES}")).map(|x| x as usize)
 }
 
 pub(super) fn fraction<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {

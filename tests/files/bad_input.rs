@@ -75,6 +75,23 @@ fn bad_scene_is_refused_with_line_column_and_field() {
         (with("Sphere(radius: 1, transform: [Scale((1, 0, 1))])"), &["object 1, Sphere.transform 1", "other than 0"]),
         (with("Sphere(radius: 1, material: \"gold\")"), &["line 1, column 86", "no material `gold`"]),
         (with("Use(solid: \"wheel\")"), &["line 1, column ", "no solid `wheel`"]),
+        (
+            with("Repeat(count: 0, step: [], of: Sphere(radius: 1))"),
+            &["object 1, Repeat.count", "from 1 to 200000, not 0"],
+        ),
+        (
+            with("Repeat(count: 1000000000, step: [], of: Sphere(radius: 1))"),
+            &["object 1, Repeat.count", "not 1000000000"],
+        ),
+        (with("Repeat(count: 2.5, step: [], of: Sphere(radius: 1))"), &["object 1, Repeat.count", "whole number"]),
+        (with("Repeat(count: 2, step: [Rotate((0, 30))], of: Sphere(radius: 1))"), &["object 1, Repeat.step 1"]),
+        (with("Repeat(count: 2, step: [Scale((1, 0, 1))], of: Sphere(radius: 1))"), &["Repeat.step 1", "other than 0"]),
+        (with("Repeat(count: 2, step: [], of: Sphere(radius: 0))"), &["object 1, Repeat.of", "greater than 0"]),
+        (with("Repeat(count: 2, of: Sphere(radius: 1))"), &["line 1, column ", "step"]),
+        (
+            GOOD.replace("objects", "solids: {\"a\": Repeat(count: 2, step: [], of: Use(solid: \"a\"))}, objects"),
+            &["line 1, column ", "a solid uses itself", "a → a"],
+        ),
         (with("Helix(radius: 1)"), &["line 1, column ", "Torus", "Sphere"]),
         (
             GOOD.replace(
@@ -122,6 +139,15 @@ fn scene_that_grows_without_bounds_is_refused() {
         GOOD.replace("objects: [Sphere(radius: 1)]", &format!("solids: {{{solids}}}, objects: [Use(solid: \"s40\")]")),
     );
     assert!(error.contains("more than 200000 primitives"), "{error}");
+    // A grid of grids: 200000⁴ spheres.
+    let repeat = |of: &str| format!("Repeat(count: 200000, step: [Translate((1, 0, 0))], of: {of})");
+    let grid = repeat(&repeat(&repeat(&repeat("Sphere(radius: 1)"))));
+    let error = refused_scene(GOOD.replace("Sphere(radius: 1)", &grid));
+    assert!(error.contains("object 1: the scene has more than 200000 primitives"), "{error}");
+    let error = refused_scene(
+        GOOD.replace("Sphere(radius: 1)", "Repeat(count: 100, step: [Scale((1e6, 1e6, 1e6))], of: Sphere(radius: 1))"),
+    );
+    assert!(error.contains("too large or too small"), "{error}");
     // A chain of names deeper than any call stack.
     let mut solids = String::from("\"s0\": Sphere(radius: 1)");
     for k in 1..=100_000 {

@@ -3,12 +3,12 @@
 use anel::csg::{Operation, SolidKind, SpanDiagram};
 use anel::language::Language;
 use anel::picture::{Quality, Size};
-use anel::scene::{BUILT_IN, Scene};
+use anel::scene::{SMALL_BUILT_IN, Scene};
 use anel::tracer::{ExplainedSample, RayCounts, RayKind, Scratch, Tracer};
 use anel::view::Inspected;
 
 fn built_in() -> impl Iterator<Item = (&'static str, Scene)> {
-    BUILT_IN.iter().map(|(name, text)| (*name, Scene::parse(text).expect("a built-in scene")))
+    SMALL_BUILT_IN.iter().map(|(name, text)| (*name, Scene::parse(text).expect("a built-in scene")))
 }
 
 /// Calls `each` with the explanation, the colour and the numbers of rays of every pixel.
@@ -112,7 +112,8 @@ fn command_explains_a_pixel_in_words_and_as_json() {
         assert!(output.status.success() && output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).expect("text")
     };
-    let (scene, size) = (Scene::parse(BUILT_IN[2].1).expect("glass"), Size::new(64, 48).expect("a small picture"));
+    let (scene, size) =
+        (Scene::parse(SMALL_BUILT_IN[2].1).expect("glass"), Size::new(64, 48).expect("a small picture"));
     let tracer = Tracer::new(&scene, size, Quality { samples: 2, ..Quality::default() });
     let inspected = Inspected::new(&tracer, &scene, [31, 22]).expect("a pixel of the picture");
     assert_eq!(explain(&[]).trim_end(), inspected.text(language).trim_end());

@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use anel::csg::Surface;
 use anel::export::{PovLimit, to_pov};
 use anel::picture::{Difference, Quality, Size, max_channel_difference, srgb8};
-use anel::scene::{BUILT_IN, Opened, Scene};
+use anel::scene::{Opened, SMALL_BUILT_IN, Scene};
 use anel::study::{Study, peer};
 use anel::tracer::{LightTerm, RayKind, Scratch, Tracer};
 use serde_json::Value;
@@ -56,7 +56,8 @@ fn pixels_equal_those_of_povray_or_differ_for_a_known_cause() {
     if !has_povray() {
         return;
     }
-    let scenes: Vec<Opened> = BUILT_IN.iter().map(|(name, text)| Opened::from_text(name, text).unwrap()).collect();
+    let scenes: Vec<Opened> =
+        SMALL_BUILT_IN.iter().map(|(name, text)| Opened::from_text(name, text).unwrap()).collect();
     let Study { rows, .. } = peer(&scenes, Size::new(240, 180).unwrap(), &mut |_, _, _| {}).unwrap();
     let number = |row: &Value, column: &str| row[column].as_u64().unwrap_or_else(|| panic!("no {column} in {row}"));
     let mut compared = 0;

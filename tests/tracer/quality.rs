@@ -1,7 +1,7 @@
 //! The guarantees of the quality settings.
 
 use anel::picture::{Colour, Quality, Size};
-use anel::scene::{BUILT_IN, Opened, Scene};
+use anel::scene::{Opened, SMALL_BUILT_IN, Scene};
 use anel::tracer::{Scratch, Tracer};
 
 /// Clear balls and mirrors under a white sky: no ray contributes more than 1, and every ray that is cut off darkens its
@@ -60,7 +60,7 @@ fn cut_off_rays_contribute_less_than_the_cutoff() {
 
 #[test]
 fn threshold_saves_samples_and_keeps_its_error() {
-    for (name, _) in BUILT_IN {
+    for (name, _) in SMALL_BUILT_IN {
         let scene = Opened::new(name).expect("a built-in scene").scene;
         let with = |samples, threshold| picture(&scene, Quality { samples, threshold, ..Quality::default() });
         let (reference, _) = with(16, 0.0);
@@ -101,7 +101,7 @@ fn more_samples_reduce_the_error_with_every_pattern() {
 
 #[test]
 fn preview_does_not_change_the_picture_or_its_rays() {
-    for (name, text) in BUILT_IN {
+    for (name, text) in SMALL_BUILT_IN {
         let scene = Scene::parse(text).expect("a built-in scene");
         let size = Size::new(75, 41).expect("a small picture");
         let traced = |tracer: &Tracer| {

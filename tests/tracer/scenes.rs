@@ -4,7 +4,7 @@ use super::povray_scenes::{Case, cases, enlarge};
 use anel::csg::{MaterialTag, Primitive, Solid};
 use anel::export::to_pov;
 use anel::picture::{Colour, Quality, Size};
-use anel::scene::{BUILT_IN, Scene};
+use anel::scene::{BUILT_IN, SMALL_BUILT_IN, Scene};
 use anel::tracer::{RayKind, Scratch, Tracer};
 use glam::{DAffine3, DVec3};
 
@@ -83,7 +83,7 @@ fn every_primitive_is_used_by_a_scene() {
 /// Ray tracers treat overlapping glass in different ways, and all are to show the same picture.
 #[test]
 fn transmitting_solids_do_not_overlap() {
-    for (name, text) in BUILT_IN {
+    for (name, text) in SMALL_BUILT_IN {
         let scene = parse(name, text);
         let transmits = |solid: &&Solid| {
             let mut found = false;
@@ -107,7 +107,7 @@ fn transmitting_solids_do_not_overlap() {
 /// whole.
 #[test]
 fn split_union_looks_the_same() {
-    for (name, text) in BUILT_IN {
+    for (name, text) in SMALL_BUILT_IN {
         let scene = parse(name, text);
         let mut kept_whole = scene.clone();
         let around = Solid::Placed {
@@ -175,6 +175,41 @@ fn union_of_several_media_is_exported_as_these_media() {
     ];
     let union = exported(&format!("Union(of: [{ball}, Union(of: [{core}]), {block}])"));
     assert_eq!(union, exported(&format!("{ball}, {core}, {block}")));
+}
+
+#[test]
+fn repetition_looks_like_its_copies_written_out() {
+    let scene = |solids: &str, object: &str| {
+        let text = format!(
+            r#"Scene(camera: (eye: (3, 5, 9), look_at: (2, 0, 0)), lights: [Point(position: (5, 9, 9))],
+            materials: {{"red": (colour: (1, 0, 0))}}, solids: {{{solids}}}, objects: [{object}])"#
+        );
+        parse("repetition", &text)
+    };
+    let pin = r#""pin": Union(of: [Cylinder(from: (0, 0, 0), to: (0, 1, 0), radius: 0.3), Sphere(radius: 0.4)])"#;
+    let used = |transform: String| format!(r#"Use(solid: "pin", transform: [{transform}])"#);
+    let union = |copies: Vec<String>, rest: &str| format!("Union(of: [{}]{rest})", copies.join(", "));
+    let rest = r#", material: "red", transform: [Scale((1, 0.5, 1)), Rotate((0, 0, 90))]"#;
+
+    let ring =
+        format!(r#"Repeat(count: 7, step: [Rotate((0, 45, 0))], of: {}{rest})"#, used("Translate((2, 0, 0))".into()));
+    let turned = (0..7).map(|k| used(format!("Translate((2, 0, 0)), Rotate((0, {}, 0))", 45 * k))).collect();
+    assert_eq!(scene(pin, &ring).solids, scene(pin, &union(turned, rest)).solids);
+
+    let grid = format!(
+        r#"Repeat(count: 3, step: [Translate((0, 0, -1))], of: Repeat(count: 4, step: [Translate((1, 0.25, 0))], of: {}))"#,
+        used(String::new())
+    );
+    let at = |x: usize, z: usize| used(format!("Translate(({x}, {}, -{z}))", x as f64 / 4.0));
+    let rows = (0..3).flat_map(|z| (0..4).map(move |x| at(x, z))).collect();
+    let (repeated, written) = (scene(pin, &grid), scene(pin, &union(rows, "")));
+    assert!(pixels(&repeated) == pixels(&written));
+    let exported = |scene: &Scene| to_pov(scene, Size::new(640, 480).expect("small"), &Quality::default()).text;
+    let primitives = |scene: &Scene| exported(scene).matches("matrix <").count();
+    assert_eq!((primitives(&repeated), primitives(&written)), (12, 12), "cylinders");
+
+    let once = format!("Repeat(count: 1, step: [Scale((9, 9, 9))], of: {})", used(String::new()));
+    assert!(pixels(&scene(pin, &once)) == pixels(&scene(pin, &used(String::new()))));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The paths of rays, and the messages they cause if the scene's space is shared (the article, §5).
 
 use anel::picture::{Quality, Size};
-use anel::scene::{BUILT_IN, Scene};
+use anel::scene::{SMALL_BUILT_IN, Scene};
 use anel::space::{Partition, traffic};
 use anel::tracer::{Path, RayCounts, RayKind, Scratch, Tracer};
 
@@ -11,7 +11,7 @@ fn tracer(text: &str, width: u32, height: u32) -> Tracer {
 }
 
 fn built_in() -> impl Iterator<Item = (&'static str, Tracer)> {
-    BUILT_IN.iter().map(|&(name, text)| (name, tracer(text, 60, 45)))
+    SMALL_BUILT_IN.iter().map(|&(name, text)| (name, tracer(text, 60, 45)))
 }
 
 fn paths(tracer: &Tracer, scratch: &mut Scratch) -> Vec<Path> {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::job_result::Thumbnail;
 use crate::cancel::CancelToken;
 use crate::palette::Rgb;
-use crate::picture::{Frame, Quality, Size, srgb8};
+use crate::picture::{Colour, Frame, Quality, Size, srgb8};
 use crate::scene::Scene;
 use crate::tracer::{Scratch, Tracer};
 
@@ -39,11 +39,23 @@ pub(super) fn preview_pixels(tracer: &Tracer) -> Arc<[Rgb]> {
     pixels.map(|(x, y)| srgb8(preview.interpolate(x, y))).collect()
 }
 
-/// Traces the thumbnail of a scene for the Scenes page; `None` if it is cancelled.
+/// Traces the thumbnail of a scene for the Scenes page, with antialiasing if that is quick; `None` if it is cancelled.
+#[expect(clippy::disallowed_methods, reason = "the user's waiting time is not on the run's clock")]
 pub(super) fn thumbnail(scene: &Scene, cancel: &CancelToken) -> Option<Thumbnail> {
+    /// With 2 × 2 samples a pixel the thumbnail takes four times as long.
+    const MAX_TIME_WITHOUT_ANTIALIASING: Duration = Duration::from_millis(500);
     // Size::new fails only for an empty or a huge picture.
     let size = Size::new(400, 300).expect("a possible size");
-    let tracer = Tracer::new(scene, size, Quality { samples: 2, ..Quality::default() });
+    let begun = Instant::now();
+    let mut pixels = picture(scene, size, 1, cancel)?;
+    if begun.elapsed() < MAX_TIME_WITHOUT_ANTIALIASING {
+        pixels = picture(scene, size, 2, cancel)?;
+    }
+    Some(Thumbnail { size, rgb: Frame::of(size, &pixels).to_srgb8() })
+}
+
+fn picture(scene: &Scene, size: Size, samples: u32, cancel: &CancelToken) -> Option<Vec<Colour>> {
+    let tracer = Tracer::new(scene, size, Quality { samples, ..Quality::default() });
     let (mut pixels, mut scratch) = (Vec::new(), Scratch::default());
     for row in 0..size.height() {
         if cancel.is_cancelled() {
@@ -51,5 +63,5 @@ pub(super) fn thumbnail(scene: &Scene, cancel: &CancelToken) -> Option<Thumbnail
         }
         tracer.trace(row * size.width()..(row + 1) * size.width(), &mut scratch, &mut pixels);
     }
-    Some(Thumbnail { size, rgb: Frame::of(size, &pixels).to_srgb8() })
+    Some(pixels)
 }

@@ -99,7 +99,7 @@ pub fn size_for(scene: &Scene, most: Size) -> Size {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{BUILT_IN, Opened};
+    use crate::scene::{Opened, SMALL_BUILT_IN};
 
     #[test]
     fn qualities_are_valid_and_distinct() {
@@ -124,7 +124,7 @@ mod tests {
         let most = Size::new(320, 240).unwrap();
         let size = |name: &str| size_for(&Opened::new(name).unwrap().scene, most);
         assert!(size("glass").pixels() < size("ten-objects").pixels());
-        for (name, _) in BUILT_IN {
+        for (name, _) in SMALL_BUILT_IN {
             let size = size(name);
             assert!(size.width() <= 320 && size.height() <= 240 && size.pixels() > 2000, "{name}: {size}");
             let ratio = f64::from(size.width()) / f64::from(size.height());

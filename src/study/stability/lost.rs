@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::picture::{Quality, Size};
-use crate::scene::{BUILT_IN, Opened};
+use crate::scene::{Opened, SMALL_BUILT_IN};
 use crate::study::StudyError;
 use crate::study::markdown::Report;
 use crate::tracer::{LostRays, Tracer};
@@ -28,7 +28,7 @@ pub(super) fn rows() -> Result<Vec<LostRow>, StudyError> {
         let LostRays { rays, lost } = Tracer::new(&Opened::new(scene)?.scene, size, quality).count_lost();
         Ok(LostRow { scene, rays, lost, lost_per_million: lost as f64 / rays as f64 * 1e6 })
     };
-    BUILT_IN.iter().map(|(scene, _)| row(scene)).collect()
+    SMALL_BUILT_IN.iter().map(|(scene, _)| row(scene)).collect()
 }
 
 /// Adds the table.

@@ -7,7 +7,7 @@ use super::{MethodResult, ResultCounter, StabilityCase, powers_of_2};
 use crate::csg::Solid;
 use crate::geometry::Ray;
 use crate::picture::{Colour, Quality, Size};
-use crate::scene::{BUILT_IN, Light, Scene};
+use crate::scene::{Light, SMALL_BUILT_IN, Scene};
 use crate::tracer::{Scratch, Tracer};
 use crate::view::Scale;
 
@@ -39,7 +39,7 @@ fn attempt(scale: f64, tries: u32, _: &mut Rng) -> Vec<MethodResult> {
     for factor in [scale, scale.recip()] {
         let naive: Vec<bool> =
             (0..size.pixels()).map(|at| is_in_shadow(at, size, factor) != is_in_shadow(at, size, 1.0)).collect();
-        for (_, text) in BUILT_IN {
+        for (_, text) in SMALL_BUILT_IN {
             // They parse, as tests check.
             let Ok(scene) = Scene::parse(text) else { continue };
             let (plain, other) = (picture(&scene, size), picture(&scaled(&scene, factor), size));

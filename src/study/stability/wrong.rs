@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::plain::{Comparison, Wide, compare, random_scene};
 use crate::picture::Size;
-use crate::scene::{BUILT_IN, Opened, Scene};
+use crate::scene::{Opened, SMALL_BUILT_IN, Scene};
 use crate::study::StudyError;
 use crate::study::markdown::Report;
 
@@ -37,7 +37,7 @@ impl WrongRow {
 /// Counts the wrong pixels of every built-in scene, and of random scenes in which boundaries coincide.
 pub(super) fn rows() -> Result<Vec<WrongRow>, StudyError> {
     let mut rows = Vec::new();
-    for &(name, _) in BUILT_IN {
+    for &(name, _) in SMALL_BUILT_IN {
         rows.push(WrongRow::new(name, &[compare::<Wide>(&Opened::new(name)?.scene, size(SIZE))]));
     }
     let random = |seed| compare::<Wide>(&Scene::parse(&random_scene(seed)).expect("a valid scene"), size(RANDOM_SIZE));
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn no_pixel_of_a_built_in_scene_is_wrong() {
-        for &(name, _) in BUILT_IN {
+        for &(name, _) in SMALL_BUILT_IN {
             let scene = Opened::new(name).expect("built-in scenes are valid").scene;
             let found = compare::<Wide>(&scene, size("24x18"));
             assert!(found.pixels == 432 && found.wrong == 0, "{name}: {found:?}");

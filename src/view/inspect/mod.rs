@@ -162,12 +162,12 @@ fn line(points: [Point; 2], width: f32, ink: Ink) -> Mark {
 mod tests {
     use super::*;
     use crate::picture::{Quality, Size};
-    use crate::scene::BUILT_IN;
+    use crate::scene::SMALL_BUILT_IN;
 
     /// Calls `each` with pixels of each built-in scene.
     pub(super) fn each(quality: Quality, mut each: impl FnMut(&Tracer, Inspected)) {
         let size = Size::new(24, 18).expect("a small picture");
-        for (_, text) in BUILT_IN {
+        for (_, text) in SMALL_BUILT_IN {
             let scene = Scene::parse(text).expect("a built-in scene");
             let tracer = Tracer::new(&scene, size, quality);
             for pixel in (0..size.pixels()).step_by(7) {
@@ -199,7 +199,7 @@ mod tests {
 
     #[test]
     fn pixel_outside_the_picture_and_missing_ray_are_none() {
-        let scene = Scene::parse(BUILT_IN[0].1).expect("a built-in scene");
+        let scene = Scene::parse(SMALL_BUILT_IN[0].1).expect("a built-in scene");
         let tracer = Tracer::new(&scene, Size::new(4, 3).expect("small"), Quality::default());
         assert!([[4, 0], [0, 3], [u32::MAX; 2]].iter().all(|&place| Inspected::new(&tracer, &scene, place).is_none()));
         let inspected = Inspected::new(&tracer, &scene, [3, 2]).expect("the last pixel");

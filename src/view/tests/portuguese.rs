@@ -10,7 +10,7 @@ use crate::picture::{Difference, Quality, Size};
 use crate::record::RecordKind;
 use crate::runlog::{Driver, Header, Metrics, RunLog};
 use crate::scenario::Command;
-use crate::scene::{BUILT_IN, Scene};
+use crate::scene::{SMALL_BUILT_IN, Scene};
 use crate::sim::Sim;
 use crate::time::Time;
 use crate::tracer::Tracer;
@@ -363,7 +363,7 @@ fn texts_of_scenes_and_pixels_are_portuguese() {
     let size = Size::new(24, 18).expect("a small picture");
     compare(|language| {
         let mut said = Vec::new();
-        for (_, text) in BUILT_IN {
+        for (_, text) in SMALL_BUILT_IN {
             let scene = Scene::parse(text).expect("a built-in scene");
             let tracer = Tracer::new(&scene, size, Quality::default());
             let lines = needs_lines(&tracer.scene_stats(), &tracer.levels(), language);

@@ -14,13 +14,14 @@ use std::path::Path;
 use anel::export::to_pov;
 use anel::picture::{Quality, Size};
 use anel::ron_file::FileError;
-use anel::scene::Opened;
+use anel::scene::{Opened, SMALL_BUILT_IN};
 use anel::tracer::{Scratch, Tracer};
 use hunt::{Hunt, corpus};
 
-/// The corpus of scenes and the built-in scenes.
+/// The corpus of scenes and the small built-in scenes: thousands of mutants of a large one would take minutes.
 fn scenes() -> Vec<Vec<u8>> {
-    [corpus("tests/files/fuzz/corpus/scenes"), corpus("scenes")].concat()
+    let built_in = SMALL_BUILT_IN.iter().map(|(_, text)| text.as_bytes().to_vec()).collect();
+    [corpus("tests/files/fuzz/corpus/scenes"), built_in].concat()
 }
 
 /// Checks that an error message is one short line.

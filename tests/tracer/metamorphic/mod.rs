@@ -7,7 +7,7 @@ mod solids;
 use anel::csg::{MaterialTag, Solid};
 use anel::geometry::rotation;
 use anel::picture::{Colour, Quality, Size};
-use anel::scene::{BUILT_IN, Camera, Light, Scene};
+use anel::scene::{Camera, Light, SMALL_BUILT_IN, Scene};
 use anel::tracer::{Scratch, Tracer};
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -24,7 +24,7 @@ fn picture(scene: &Scene) -> Vec<Colour> {
 
 /// Each built-in scene and its picture.
 fn built_in() -> impl Iterator<Item = (&'static str, Scene, Vec<Colour>)> {
-    BUILT_IN.iter().map(|&(name, text)| {
+    SMALL_BUILT_IN.iter().map(|&(name, text)| {
         let scene = Scene::parse(text).unwrap_or_else(|error| panic!("{name}: {error}"));
         let pixels = picture(&scene);
         (name, scene, pixels)
