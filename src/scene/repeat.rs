@@ -1,10 +1,10 @@
 //! The maps of repeated solids: the step applied 0, 1, 2 … times.
 //!
-//! A product of many maps would carry the rounding of each into all that follow: after three turns by 30° a face would no
-//! longer be exactly at a right angle. So a map is computed from the number of its copy where that is possible: a shift
-//! is multiplied, and turns about one axis are one turn by a multiple of the angle, which is exact at right angles. Only
-//! the shifts between turns are added up. Steps that scale, or that turn about several axes, are multiplied one by one;
-//! their relative error grows by about 10⁻¹⁶ a copy.
+//! A product of many maps would carry the rounding of each into all that follow: after three turns by 30° a face would
+//! no longer be exactly at a right angle. So a map is computed from the number of its copy where that is possible: a
+//! shift is multiplied, and turns about one axis are one turn by a multiple of the angle, which is exact at right
+//! angles. Only the shifts between turns are added up. Steps that scale, or that turn about several axes, are
+//! multiplied one by one; their relative error grows by about 10⁻¹⁶ a copy.
 
 use glam::{DAffine3, DVec3};
 
