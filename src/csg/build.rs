@@ -7,10 +7,10 @@ use super::merge::Operation;
 use super::outline::{Outline, OutlineKind};
 use super::tree::{Node, NodeKind, Tree};
 use super::{LeafIndex, Pass, Passes, RootId, Solid};
-use crate::geometry::{Aabb, split};
+use crate::geometry::{Aabb, BoxFrame, Boxes, WIDTH, split, split_into};
 
 /// A union of more operands than this becomes a tree of unions.
-const MAX_FLAT_OPERANDS: usize = 4;
+const MAX_FLAT_OPERANDS: usize = WIDTH;
 
 impl Tree {
     /// An empty tree, to which solids are added by these passes.
@@ -94,7 +94,7 @@ impl Tree {
             }
             _ => {
                 let bounds = bounds.intersection(within.bounds);
-                Some((self.push(NodeKind::Composition { operation, children }, bounds), bounds))
+                Some((self.push(NodeKind::Composition { operation, children, boxes: Vec::new() }, bounds), bounds))
             }
         }
     }
@@ -122,7 +122,7 @@ impl Tree {
     }
 
     /// Makes the union of at least one node. A union of many becomes a tree of unions of neighbours: a ray visits only
-    /// those near it, and their spans are merged in pairs instead of one by one into all that were found before.
+    /// those near it, and their spans are merged with few others instead of with all that were found before.
     fn union_of(&mut self, parts: &[NodeIndex]) -> NodeIndex {
         let mut boxes: Vec<_> = parts.iter().map(|&part| (part, self.nodes[part.index()].bounds)).collect();
         self.union_tree(&mut boxes, 0)
@@ -134,12 +134,14 @@ impl Tree {
         }
         let bounds = parts.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
         let is_tree = parts.len() > MAX_FLAT_OPERANDS && self.passes.has(Pass::UnionTrees);
-        let middle = if is_tree { split(parts, depth).unwrap_or(parts.len() / 2) } else { 0 };
-        let children = match parts.split_at_mut(middle) {
-            ([], all) => all.iter().map(|(part, _)| *part).collect(),
-            (first, second) => [first, second].map(|half| self.union_tree(half, depth + 1)).to_vec(),
+        let children = if is_tree {
+            let halve = |parts: &mut [_], depth| Some(split(parts, depth).unwrap_or(parts.len() / 2));
+            let groups = split_into(parts, depth, MAX_FLAT_OPERANDS, halve);
+            groups.into_iter().map(|(group, depth)| self.union_tree(group, depth)).collect()
+        } else {
+            parts.iter().map(|(part, _)| *part).collect()
         };
-        self.push(NodeKind::Composition { operation: Operation::Union, children }, bounds)
+        self.push(NodeKind::Composition { operation: Operation::Union, children, boxes: Vec::new() }, bounds)
     }
 
     /// Joins the convex leaves at the beginning of an intersection's operands into one operand.
@@ -163,11 +165,36 @@ impl Tree {
         }
     }
 
-    /// Removes the bounds of all nodes unless [`Pass::CompositionBounds`] is on.
+    /// Removes the bounds of all nodes unless [`Pass::CompositionBounds`] is on, and with them groups the boxes of
+    /// compositions with many operands, so that a ray tests them together.
     pub fn finish(&mut self) {
         if !self.passes.has(Pass::CompositionBounds) {
             self.nodes.iter_mut().for_each(|node| node.bounds = Aabb::ALL);
+            return;
         }
+        let finite = self.nodes.iter().map(|node| node.bounds).filter(|bounds| bounds.is_finite());
+        let frame = BoxFrame::new(finite.fold(Aabb::EMPTY, Aabb::union));
+        let bounds: Vec<Aabb> = self.nodes.iter().map(|node| node.bounds).collect();
+        for node in &mut self.nodes {
+            let NodeKind::Composition { operation, children, boxes } = &mut node.kind else { continue };
+            let tested = match operation {
+                Operation::Union => &children[..],
+                Operation::Difference => &children[1..],
+                // Each operand of an intersection leaves less for the next.
+                Operation::Intersection => &[],
+            };
+            if tested.len() > 2 {
+                *boxes = tested
+                    .chunks(WIDTH)
+                    .map(|group| {
+                        let mut boxes = Boxes::NONE;
+                        group.iter().for_each(|child| boxes.add(bounds[child.index()], &frame));
+                        boxes
+                    })
+                    .collect();
+            }
+        }
+        self.frame = Some(frame);
     }
 
     fn push(&mut self, kind: NodeKind, bounds: Aabb) -> NodeIndex {

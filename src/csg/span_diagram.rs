@@ -51,7 +51,7 @@ impl Tree {
         match &self.nodes[node.index()].kind {
             NodeKind::Leaf(leaf) => self.leaf_crossings(*leaf, ray, start),
             NodeKind::Convex(leaves) => self.convex_span(leaves, ray, start).into_iter().flatten().collect(),
-            NodeKind::Composition { operation, children } => {
+            NodeKind::Composition { operation, children, .. } => {
                 let mut crossings = Vec::new();
                 for (index, &child) in children.iter().enumerate() {
                     let second = crossings.len();
@@ -76,7 +76,7 @@ impl Tree {
                 };
                 (SolidKind::Composition(Operation::Intersection), leaves.iter().map(operand).collect())
             }
-            NodeKind::Composition { operation, children } => {
+            NodeKind::Composition { operation, children, .. } => {
                 let operand =
                     |&child: &NodeIndex| self.node_diagram(child, &self.node_crossings(child, ray, start), ray, start);
                 (SolidKind::Composition(*operation), children.iter().map(operand).collect())

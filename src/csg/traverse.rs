@@ -7,7 +7,7 @@ use super::merge::{Operation, merge};
 use super::span::{Span, Spans};
 use super::tree::{Node, NodeKind};
 use super::{Crossing, LeafIndex, RootId, Surface, Tree};
-use crate::geometry::{Ray, fast_max, fast_min};
+use crate::geometry::{BoxRay, Boxes, Ray, WIDTH, fast_max, fast_min};
 
 /// Scratch memory for the crossings of one ray, two for each span.
 pub type Stack = Vec<Crossing>;
@@ -68,10 +68,11 @@ impl Tree {
                 Some([enter, leave]) if !is_sliver(enter, leave) => Some([enter, leave]),
                 _ => return,
             },
-            NodeKind::Composition { operation, children } => {
+            NodeKind::Composition { operation, children, boxes } => {
                 let window = [-2.0 * slack, t_max + ray.tolerance(t_max)];
                 // The caller has tested the bounds.
-                self.push_composition_crossings(*operation, children, ray, start, window, stack);
+                let line = Line { ray, start, single: self.frame.as_ref().map(|frame| frame.ray(ray)) };
+                self.push_composition_crossings(*operation, (children, boxes), &line, window, stack);
                 drop_slivers(stack, is_sliver);
                 None
             }
@@ -86,23 +87,17 @@ impl Tree {
 
     /// Pushes the crossings of a node. May leave out spans outside `window`.
     #[inline(always)]
-    fn push_crossings(&self, node: NodeIndex, ray: &Ray, start: Option<Surface>, window: [f64; 2], stack: &mut Stack) {
+    fn push_crossings(&self, node: NodeIndex, line: &Line<'_>, window: [f64; 2], stack: &mut Stack) {
         let Node { bounds, kind } = &self.nodes[node.index()];
-        if bounds.entry(ray, window[0], window[1]).is_some() {
-            self.push_crossings_within_bounds(kind, ray, start, window, stack);
+        if bounds.entry(line.ray, window[0], window[1]).is_some() {
+            self.push_crossings_within_bounds(kind, line, window, stack);
         }
     }
 
     /// Does the same for a ray that is known to meet the node's bounds.
     #[inline(always)]
-    fn push_crossings_within_bounds(
-        &self,
-        kind: &NodeKind,
-        ray: &Ray,
-        start: Option<Surface>,
-        window: [f64; 2],
-        stack: &mut Stack,
-    ) {
+    fn push_crossings_within_bounds(&self, kind: &NodeKind, line: &Line<'_>, window: [f64; 2], stack: &mut Stack) {
+        let Line { ray, start, .. } = *line;
         let mut push = |[enter, leave]: [Crossing; 2]| {
             if leave.t >= window[0] && enter.t <= window[1] {
                 stack.extend([enter, leave]);
@@ -123,8 +118,8 @@ impl Tree {
                     push(span);
                 }
             }
-            NodeKind::Composition { operation, children } => {
-                self.push_composition_crossings(*operation, children, ray, start, window, stack);
+            NodeKind::Composition { operation, children, boxes } => {
+                self.push_composition_crossings(*operation, (children, boxes), line, window, stack);
             }
         }
     }
@@ -132,33 +127,48 @@ impl Tree {
     fn push_composition_crossings(
         &self,
         operation: Operation,
-        children: &[NodeIndex],
-        ray: &Ray,
-        start: Option<Surface>,
+        (children, boxes): (&[NodeIndex], &[Boxes]),
+        line: &Line<'_>,
         mut window: [f64; 2],
         stack: &mut Stack,
     ) {
         let first = stack.len();
+        let ray = line.ray;
+        if let Some(single) = line.single.as_ref().filter(|_| !boxes.is_empty()) {
+            let mut tested = children;
+            if let Some((minuend, others)) = children.split_first().filter(|_| operation == Operation::Difference) {
+                self.push_crossings_within_bounds(&self.nodes[minuend.index()].kind, line, window, stack);
+                if !narrow(&mut window, &stack[first..], ray) {
+                    return;
+                }
+                tested = others;
+            }
+            for (group, boxes) in tested.chunks(WIDTH).zip(boxes) {
+                let range = window.map(|t| single.place(t));
+                let mut met = single.meets(boxes, range, &mut [0.0; WIDTH]);
+                while met != 0 {
+                    let child = group[met.trailing_zeros() as usize];
+                    met &= met - 1;
+                    let second = stack.len();
+                    self.push_crossings_within_bounds(&self.nodes[child.index()].kind, line, window, stack);
+                    merge(operation, stack, first, second, ray);
+                }
+            }
+            return;
+        }
         for (index, &child) in children.iter().enumerate() {
             let second = stack.len();
             if index == 0 && operation == Operation::Difference {
                 // The bounds of a difference are those of its first operand.
-                self.push_crossings_within_bounds(&self.nodes[child.index()].kind, ray, start, window, stack);
+                self.push_crossings_within_bounds(&self.nodes[child.index()].kind, line, window, stack);
             } else {
-                self.push_crossings(child, ray, start, window, stack);
+                self.push_crossings(child, line, window, stack);
                 if index > 0 {
                     merge(operation, stack, first, second, ray);
                 }
             }
-            if operation != Operation::Union {
-                // Outside the first operand's spans nothing can change the result any more.
-                let (Some(enter), Some(leave)) = (stack.get(first), stack.last()) else { return };
-                if enter.t.is_finite() {
-                    window[0] = fast_max(window[0], enter.t - 2.0 * ray.tolerance(enter.t));
-                }
-                if leave.t.is_finite() {
-                    window[1] = fast_min(window[1], leave.t + 2.0 * ray.tolerance(leave.t));
-                }
+            if operation != Operation::Union && !narrow(&mut window, &stack[first..], ray) {
+                return;
             }
         }
     }
@@ -196,6 +206,29 @@ impl Tree {
         }
         Some([enter, leave])
     }
+}
+
+/// A ray's line through a solid.
+struct Line<'a> {
+    ray: &'a Ray,
+    /// The face of the solid that the ray starts on, if any.
+    start: Option<Surface>,
+    /// The ray in single precision, to test many boxes; none for a tree without such boxes.
+    single: Option<BoxRay>,
+}
+
+/// Narrows a window to the spans of the first operand: outside them nothing can change the result any more. Returns
+/// false if there are none.
+#[inline(always)]
+fn narrow(window: &mut [f64; 2], spans: &[Crossing], ray: &Ray) -> bool {
+    let (Some(enter), Some(leave)) = (spans.first(), spans.last()) else { return false };
+    if enter.t.is_finite() {
+        window[0] = fast_max(window[0], enter.t - 2.0 * ray.tolerance(enter.t));
+    }
+    if leave.t.is_finite() {
+        window[1] = fast_min(window[1], leave.t + 2.0 * ray.tolerance(leave.t));
+    }
+    true
 }
 
 #[inline(always)]

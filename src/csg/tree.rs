@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::id::NodeIndex;
 use super::merge::Operation;
 use super::{Leaf, LeafIndex, Passes, RootId, Surface};
-use crate::geometry::Aabb;
+use crate::geometry::{Aabb, BoxFrame, Boxes};
 
 /// Solids compiled for tracing. A *root* is the number of one of them.
 #[derive(Debug, Default)]
@@ -14,6 +14,8 @@ pub struct Tree {
     pub(super) nodes: Vec<Node>,
     pub(super) passes: Passes,
     pub(super) dropped: DroppedCounts,
+    /// Of the boxes in the nodes; none until [`Tree::finish`].
+    pub(super) frame: Option<BoxFrame>,
 }
 
 /// The number of parts that were dropped because they cannot be seen.
@@ -39,6 +41,8 @@ pub(super) enum NodeKind {
     Composition {
         operation: Operation,
         children: Vec<NodeIndex>,
+        /// The boxes of the children, in groups; empty where a test of each is as good.
+        boxes: Vec<Boxes>,
     },
 }
 
@@ -58,7 +62,7 @@ impl Tree {
         match &self.nodes[node.index()].kind {
             NodeKind::Leaf(_) => 0,
             NodeKind::Convex(_) => 1,
-            NodeKind::Composition { operation, children } => {
+            NodeKind::Composition { operation, children, .. } => {
                 let counted = |(index, &child): (usize, &NodeIndex)| {
                     let takes_unions = match operation {
                         Operation::Union => true,

@@ -2,11 +2,13 @@
 //!
 //! Functions beyond the root come from `libm`, which is the same on every computer: so are the pictures.
 
+mod boxes;
 mod parallel;
 mod split;
 
+pub use boxes::{BoxFrame, BoxRay, Boxes, WIDTH};
 pub use parallel::{PARALLEL_COSINE, approach};
-pub use split::{MAX_SAH_DEPTH, split};
+pub use split::{split, split_into};
 
 use glam::{DAffine3, DMat3, DVec3};
 

@@ -4,7 +4,7 @@ use super::Aabb;
 
 /// From this depth on [`split`] halves by count, so that no hierarchy is deeper than this plus the number of halvings
 /// of its boxes.
-pub const MAX_SAH_DEPTH: u32 = 32;
+const MAX_SAH_DEPTH: u32 = 32;
 
 /// Reorders the boxes and returns an index that splits them in two parts where the surface area heuristic expects the
 /// least work for a ray (MacDonald and Booth, *Heuristics for ray tracing using space subdivision*, 1990). Returns
@@ -42,6 +42,33 @@ pub fn split<Id: Ord>(boxes: &mut [(Id, Aabb)], depth: u32) -> Option<usize> {
     let (axis, middle) = best?;
     sort_along(boxes, axis);
     Some(middle)
+}
+
+/// Splits boxes into at most `count` groups of neighbours, the largest group again and again by `split`, which returns
+/// nothing for what is to stay whole. Returns each group with its depth.
+pub fn split_into<Id>(
+    boxes: &mut [(Id, Aabb)],
+    depth: u32,
+    count: usize,
+    split: impl Fn(&mut [(Id, Aabb)], u32) -> Option<usize>,
+) -> Vec<(&mut [(Id, Aabb)], u32)> {
+    let mut groups = vec![(boxes, depth)];
+    let mut whole = Vec::new();
+    while groups.len() + whole.len() < count {
+        let size = |group: &[(Id, Aabb)]| group.iter().fold(Aabb::EMPTY, |all, (_, one)| all.union(*one)).half_area();
+        let sizes = groups.iter().map(|(group, _)| size(group)).enumerate();
+        let Some((largest, _)) = sizes.max_by(|(_, a), (_, b)| a.total_cmp(b)) else { break };
+        let (group, depth) = groups.swap_remove(largest);
+        match if group.len() > 1 { split(group, depth) } else { None } {
+            Some(place) => {
+                let (first, second) = group.split_at_mut(place);
+                groups.extend([(first, depth + 1), (second, depth + 1)]);
+            }
+            None => whole.push((group, depth)),
+        }
+    }
+    whole.extend(groups);
+    whole
 }
 
 fn sort_along<Id: Ord>(boxes: &mut [(Id, Aabb)], axis: usize) {

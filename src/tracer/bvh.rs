@@ -1,11 +1,13 @@
-//! A bounding volume hierarchy over solids, beside those without bounds.
+//! A bounding volume hierarchy over solids, beside those without bounds. A node has up to eight children, whose boxes a
+//! ray tests at once (see [`Boxes`]).
 
 use crate::csg::RootId;
-use crate::geometry::{Aabb, MAX_SAH_DEPTH, Ray, fast_max, fast_min, split};
+use crate::geometry::{Aabb, BoxFrame, BoxRay, Boxes, Ray, WIDTH, split, split_into};
 
-/// A binary tree of boxes. A node stores the boxes of both its children, so that one visit tests both.
-#[derive(Debug, Default)]
+/// A tree of boxes.
+#[derive(Debug)]
 pub(super) struct Bvh {
+    frame: BoxFrame,
     top: Option<(Aabb, Child)>,
     nodes: Vec<Node>,
     /// The roots without bounds, then those of the leaves.
@@ -13,12 +15,10 @@ pub(super) struct Bvh {
     unbounded: u32,
 }
 
-/// The boxes of two children, by axis and then by child.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Node {
-    min: [[f64; 2]; 3],
-    max: [[f64; 2]; 3],
-    children: [Child; 2],
+    boxes: Boxes,
+    children: [Child; WIDTH],
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,39 +29,34 @@ struct Child {
     count: u32,
 }
 
-/// The boxes that a ray has yet to visit, and where it enters them: at most one for each level, of which
-/// [`MAX_SAH_DEPTH`] are split by area, and 32 halve at most 2³² solids. Kept from ray to ray, since clearing it would
-/// cost more than a box.
-#[derive(Debug)]
-pub(super) struct Pending([(f64, Child); MAX_SAH_DEPTH as usize + 32]);
-
-impl Default for Pending {
-    fn default() -> Self {
-        Self([(0.0, Child::default()); _])
-    }
-}
+/// The boxes that a ray has yet to visit, the next one last, and where the ray enters them. Kept from ray to ray.
+#[derive(Debug, Default)]
+pub(super) struct Pending(Vec<(f32, Child)>);
 
 impl Bvh {
     /// Puts the bounded solids into a hierarchy.
     pub fn new(unbounded: Vec<RootId>, mut bounded: Vec<(RootId, Aabb)>) -> Self {
-        let mut bvh = Self::of_unbounded(unbounded);
+        let bounds = bounds_of(&bounded);
+        let mut bvh = Self::of_unbounded(unbounded, bounds);
         if !bounded.is_empty() {
-            bvh.top = Some(bvh.build(&mut bounded, 0));
+            bvh.top = Some((bounds, bvh.build(&mut bounded, 0)));
         }
         bvh
     }
 
     /// All bounded solids in one box, without a hierarchy.
     pub fn flat(unbounded: Vec<RootId>, bounded: Vec<(RootId, Aabb)>) -> Self {
-        let mut bvh = Self::of_unbounded(unbounded);
+        let bounds = bounds_of(&bounded);
+        let mut bvh = Self::of_unbounded(unbounded, bounds);
         if !bounded.is_empty() {
-            bvh.top = Some(bvh.add_leaf(&bounded));
+            bvh.top = Some((bounds, bvh.add_leaf(&bounded)));
         }
         bvh
     }
 
-    fn of_unbounded(roots: Vec<RootId>) -> Self {
-        Self { unbounded: roots.len() as u32, roots, ..Self::default() }
+    fn of_unbounded(roots: Vec<RootId>, bounds: Aabb) -> Self {
+        let unbounded = roots.len() as u32;
+        Self { frame: BoxFrame::new(bounds), top: None, nodes: Vec::new(), unbounded, roots }
     }
 
     /// All roots: those without bounds, and the others.
@@ -71,44 +66,35 @@ impl Bvh {
 
     /// Starts the walk of `ray` through the solids that it may meet before `t_max`.
     #[inline(always)]
-    pub fn walk<'a>(&'a self, ray: &'a Ray, t_max: f64, Pending(pending): &'a mut Pending) -> Walk<'a> {
-        let mut depth = 0;
-        if let Some((bounds, top)) = self.top
-            && let Some(entry) = bounds.entry(ray, 0.0, t_max)
+    pub fn walk<'a>(&'a self, ray: &Ray, t_max: f64, Pending(pending): &'a mut Pending) -> Walk<'a> {
+        pending.clear();
+        if let Some((bounds, top)) = &self.top
+            && bounds.entry(ray, 0.0, t_max).is_some()
         {
-            pending[depth] = (entry, top);
-            depth += 1;
+            pending.push((f32::NEG_INFINITY, *top));
         }
-        if self.unbounded > 0 {
-            pending[depth] = (0.0, Child { to: 0, count: self.unbounded });
-            depth += 1;
-        }
-        Walk { bvh: self, ray, pending, depth }
+        let ray = self.frame.ray(ray);
+        Walk { bvh: self, pending, unbounded: true, start: ray.place(0.0), ray }
     }
 
-    fn build(&mut self, solids: &mut [(RootId, Aabb)], depth: u32) -> (Aabb, Child) {
-        let Some(place) = split(solids, depth) else {
-            return self.add_leaf(solids);
-        };
-        let bounds = bounds_of(solids);
+    fn build(&mut self, solids: &mut [(RootId, Aabb)], depth: u32) -> Child {
+        let groups = split_into(solids, depth, WIDTH, split);
+        if let [(only, _)] = &groups[..] {
+            return self.add_leaf(only);
+        }
         let number = self.nodes.len();
-        self.nodes.push(Node::default());
-        let (first, second) = solids.split_at_mut(place);
-        let parts = [self.build(first, depth + 1), self.build(second, depth + 1)];
-        let node = &mut self.nodes[number];
-        for (side, (bounds, child)) in parts.into_iter().enumerate() {
-            for axis in 0..3 {
-                (node.min[axis][side], node.max[axis][side]) = (bounds.min[axis], bounds.max[axis]);
-            }
-            node.children[side] = child;
+        self.nodes.push(Node { boxes: Boxes::NONE, children: [Child::default(); WIDTH] });
+        for (place, (group, depth)) in groups.into_iter().enumerate() {
+            self.nodes[number].boxes.add(bounds_of(group), &self.frame);
+            self.nodes[number].children[place] = self.build(group, depth);
         }
-        (bounds, Child { to: number as u32, count: 0 })
+        Child { to: number as u32, count: 0 }
     }
 
-    fn add_leaf(&mut self, solids: &[(RootId, Aabb)]) -> (Aabb, Child) {
+    fn add_leaf(&mut self, solids: &[(RootId, Aabb)]) -> Child {
         let leaf = Child { to: self.roots.len() as u32, count: solids.len() as u32 };
         self.roots.extend(solids.iter().map(|(root, _)| root));
-        (bounds_of(solids), leaf)
+        leaf
     }
 }
 
@@ -116,64 +102,56 @@ fn bounds_of(solids: &[(RootId, Aabb)]) -> Aabb {
     solids.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds))
 }
 
-/// A ray's walk through a hierarchy: first the solids without bounds, then those whose boxes the ray meets, in the
-/// order in which it enters the boxes.
+/// A ray's walk through a hierarchy: first the solids without bounds, then those whose boxes the ray meets, nearly in
+/// the order in which it enters the boxes.
 #[derive(Debug)]
 pub(super) struct Walk<'a> {
     bvh: &'a Bvh,
-    ray: &'a Ray,
-    /// Boxes to be visited, the next one last, and where the ray enters them.
-    pending: &'a mut [(f64, Child)],
-    depth: usize,
+    pending: &'a mut Vec<(f32, Child)>,
+    /// Whether the solids without bounds are still to come.
+    unbounded: bool,
+    ray: BoxRay,
+    /// The place of the ray's origin.
+    start: f32,
 }
 
 impl<'a> Walk<'a> {
     /// Returns the next solids that the ray may meet before `t_max`, which may be less with each call.
     #[inline(always)]
     pub fn next(&mut self, t_max: f64) -> Option<&'a [RootId]> {
-        while self.depth > 0 {
-            self.depth -= 1;
-            let (entry, mut at) = self.pending[self.depth];
-            if entry > t_max {
+        if self.unbounded {
+            self.unbounded = false;
+            return Some(self.bvh.roots().0);
+        }
+        // Boxes have more room than what this is rounded by.
+        let end = self.ray.place(t_max);
+        while let Some((entry, at)) = self.pending.pop() {
+            if entry > end {
                 continue;
             }
-            loop {
-                if at.count > 0 {
-                    return Some(&self.bvh.roots[at.to as usize..(at.to + at.count) as usize]);
-                }
-                let node = &self.bvh.nodes[at.to as usize];
-                let [first, second] = node.entries(self.ray, t_max);
-                let [a, b] = node.children;
-                let (near, far) = if first <= second { ((first, a), (second, b)) } else { ((second, b), (first, a)) };
-                if far.0 < f64::INFINITY {
-                    self.pending[self.depth] = far;
-                    self.depth += 1;
-                }
-                if near.0 == f64::INFINITY {
-                    break;
-                }
-                at = near.1;
+            if at.count > 0 {
+                return Some(&self.bvh.roots[at.to as usize..(at.to + at.count) as usize]);
             }
+            self.visit(&self.bvh.nodes[at.to as usize], end);
         }
         None
     }
-}
 
-impl Node {
-    /// The distances at which `ray` enters the children's boxes before `t_max`; infinite for a box that it misses. The
-    /// same as [`Aabb::entry`], for two boxes at once, so that the compiler can use vector instructions.
+    /// Adds the children that the ray meets before `end`, the nearest last.
     #[inline(always)]
-    fn entries(&self, ray: &Ray, t_max: f64) -> [f64; 2] {
-        let (mut near, mut far) = ([0.0; 2], [t_max; 2]);
-        for axis in 0..3 {
-            let (origin, inverse) = (ray.origin[axis], ray.inverse_direction[axis]);
-            let distance = |places: [f64; 2]| places.map(|place| (place - origin) * inverse);
-            let (a, b) = (distance(self.min[axis]), distance(self.max[axis]));
-            for side in 0..2 {
-                near[side] = fast_max(fast_min(a[side], b[side]), near[side]);
-                far[side] = fast_min(fast_max(a[side], b[side]), far[side]);
+    fn visit(&mut self, node: &Node, end: f32) {
+        let mut entry = [0.0; WIDTH];
+        let mut met = self.ray.meets(&node.boxes, [self.start, end], &mut entry);
+        let first = self.pending.len();
+        while met != 0 {
+            let child = met.trailing_zeros() as usize;
+            met &= met - 1;
+            self.pending.push((entry[child], node.children[child]));
+            let mut place = self.pending.len() - 1;
+            while place > first && self.pending[place - 1].0 < self.pending[place].0 {
+                self.pending.swap(place - 1, place);
+                place -= 1;
             }
         }
-        [0, 1].map(|side| if near[side] <= far[side] { near[side] } else { f64::INFINITY })
     }
 }
