@@ -24,13 +24,17 @@ impl Tree {
         self.add_node(outline, &Extent::ALL).map(|(node, bounds)| (RootId(node.0), bounds))
     }
 
-    /// Adds a solid of which only the part within `around` matters. There it has to be right: so it may have boxes that
-    /// leave out what lies elsewhere.
+    /// Adds a solid of which only the part within `around` matters: elsewhere it may miss parts, of which some are
+    /// missing in what is subtracted.
     fn add_node(&mut self, outline: Outline, around: &Extent) -> Option<(NodeIndex, Aabb)> {
+        // Outside of the least box that needs no subtraction, no operand matters: there one of them is missing for sure.
+        let mut inner = outline.upper.as_ref().unwrap_or(&outline.extent).clone();
         let mut within = outline.extent;
         if self.passes.has(Pass::FoundBounds) {
             within.add(around);
             within.close();
+            inner.add(around);
+            inner.close();
         }
         let (operation, operands) = match outline.kind {
             OutlineKind::Leaf(leaf) => {
@@ -42,9 +46,10 @@ impl Tree {
         };
         let mut children: Vec<NodeIndex> = Vec::new();
         let mut bounds = if operation == Operation::Intersection { within.bounds } else { Aabb::EMPTY };
-        let extents = self.extents_around(operation, &operands, around);
-        for (index, (operand, around)) in operands.into_iter().zip(extents).enumerate() {
-            let child = self.add_node(operand, &around);
+        // A union's operands matter wherever each of them is.
+        let around = if operation == Operation::Union { around } else { &inner };
+        for (index, operand) in operands.into_iter().enumerate() {
+            let child = self.add_node(operand, around);
             match operation {
                 Operation::Union => {
                     let Some((child, child_bounds)) = child else { continue };
@@ -97,28 +102,6 @@ impl Tree {
                 Some((self.push(NodeKind::Composition { operation, children, boxes: Vec::new() }, bounds), bounds))
             }
         }
-    }
-
-    /// Where each operand of a composition matters, if the composition matters within `around`: an operand of an
-    /// intersection within the others, and what is subtracted within the first operand. Never within itself, where it
-    /// has to be right.
-    fn extents_around(&self, operation: Operation, operands: &[Outline], around: &Extent) -> Vec<Extent> {
-        /// Each operand of an intersection looks at all others.
-        const MAX_OPERANDS: usize = 32;
-        let others = |own: usize| match operation {
-            _ if !self.passes.has(Pass::FoundBounds) => &[],
-            Operation::Intersection if operands.len() <= MAX_OPERANDS => operands,
-            Operation::Difference if own > 0 => &operands[..1],
-            Operation::Union | Operation::Intersection | Operation::Difference => &[],
-        };
-        let extent = |own: usize| {
-            let mut extent = around.clone();
-            let others = others(own).iter().enumerate().filter(|(other, _)| *other != own);
-            others.for_each(|(_, other)| extent.add(&other.extent));
-            extent.close();
-            extent
-        };
-        (0..operands.len()).map(extent).collect()
     }
 
     /// Makes the union of at least one node. A union of many becomes a tree of unions of neighbours: a ray visits only

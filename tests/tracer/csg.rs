@@ -22,6 +22,7 @@ fn cube(at: DVec3, tag: u32) -> Solid {
 fn picture(solid: &Solid) -> String {
     let mut tree = Tree::default();
     let root = tree.add(solid).map(|(root, _)| root);
+    tree.finish();
     let mut rows = String::new();
     for y in 0..16 {
         for x in 0..32 {
@@ -117,6 +118,7 @@ fn plate_of_thickness_1e_minus_7_survives_the_tolerance() {
 fn crossings(solid: &Solid, ray: &Ray) -> Vec<(f64, u32)> {
     let mut tree = Tree::default();
     let Some((root, _)) = tree.add(solid) else { return Vec::new() };
+    tree.finish();
     let mut found = Vec::new();
     tree.crossings(root, ray, None, f64::INFINITY, tree.contains(root, ray.origin, 0.0), &mut Stack::new(), |hit| {
         found.push((hit.t, tree.leaf(hit.surface).tag.0));

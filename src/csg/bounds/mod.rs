@@ -33,6 +33,8 @@ pub(super) struct Extent {
 
 /// More quadrics than this are left out. What is left out makes a box wider, never wrong.
 const MAX_QUADRICS: usize = 8;
+/// No solid that is meant reaches farther. Planes that are parallel but for rounding meet there.
+const MAX_REACH: f64 = 1e13;
 /// Each round makes what is known of one quadric known to the others.
 const ROUNDS: usize = 4;
 
@@ -85,6 +87,7 @@ impl Extent {
 
     /// Computes the box from all that is known. Once it is finite, nothing else is needed any more.
     pub fn close(&mut self) {
+        self.planes.keep_those_that_cut(self.bounds);
         if self.planes.is_empty() && self.quadrics.is_empty() {
             return;
         }
@@ -95,9 +98,15 @@ impl Extent {
 
     /// A finite box around the solid, if there is one.
     fn closed(&self) -> Option<Aabb> {
+        let reach = |bounds: Aabb| bounds.min.abs().max(bounds.max.abs()).max_element();
+        if self.bounds.is_finite() {
+            return self.rounds(reach(self.bounds));
+        }
         // First as if there were no rounding: this gives the coordinates to which rounding errors are relative.
         let exact = self.rounds(0.0)?;
-        let reach = |bounds: Aabb| bounds.min.abs().max(bounds.max.abs()).max_element();
+        if reach(exact) > MAX_REACH {
+            return None;
+        }
         let bounds = self.rounds(reach(exact))?;
         (reach(bounds) <= 2.0 * reach(exact)).then_some(bounds)
     }
@@ -107,7 +116,8 @@ impl Extent {
         let mut planes = self.planes.clone();
         planes.add_box(self.bounds);
         let mut bounds = planes.bounds(reach);
-        for _ in 0..ROUNDS {
+        let rounds = if self.quadrics.is_empty() { 0 } else { ROUNDS };
+        for _ in 0..rounds {
             let before = bounds;
             for quadric in &self.quadrics {
                 planes.add_all(quadric.clip(&planes, reach));
@@ -267,6 +277,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(1000))]
+
         #[test]
         fn points_of_a_solid_lie_in_its_box(
             primitives in prop::collection::vec(primitive(), 1..6), cut in prop::collection::vec(primitive(), 0..3),

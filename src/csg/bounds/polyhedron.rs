@@ -1,6 +1,6 @@
 //! The intersection of half-spaces, and how far it reaches in a direction.
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DVec3};
 
 use super::AXES;
 use crate::geometry::Aabb;
@@ -40,6 +40,14 @@ impl Polyhedron {
 
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
+    }
+
+    /// Removes the planes on whose inner side a whole finite box lies.
+    pub fn keep_those_that_cut(&mut self, bounds: Aabb) {
+        if bounds.is_finite() {
+            let (centre, half) = (bounds.centre(), (bounds.max - bounds.min) * 0.5);
+            self.0.retain(|plane| plane.normal.dot(centre) + plane.normal.abs().dot(half) > plane.offset);
+        }
     }
 
     pub fn planes(&self) -> &[Plane] {
@@ -88,6 +96,10 @@ impl Polyhedron {
     /// than the part of `direction` that the sum misses.
     pub fn support(&self, direction: DVec3, reach: f64) -> f64 {
         let mut least = f64::INFINITY;
+        // Normals that all point away from the direction have no sum that reaches it.
+        if self.0.iter().all(|plane| plane.normal.dot(direction) <= 0.0) {
+            return least;
+        }
         let mut add = |of: [(f64, &Plane); 3]| {
             let sum: DVec3 = of.iter().map(|(factor, plane)| *factor * plane.normal).sum();
             let missed = (direction - sum).abs().element_sum();
@@ -102,14 +114,23 @@ impl Polyhedron {
                 if let Some([x, y]) = factors_of_two(direction, a.normal, b.normal) {
                     add([(x, a), (y, b), (0.0, a)]);
                 }
+                let across = a.normal.cross(b.normal);
                 for c in &self.0[..next] {
-                    let columns = DMat3::from_cols(a.normal, b.normal, c.normal);
-                    if columns.determinant().abs() > MIN_DETERMINANT {
-                        // A factor of −10⁻¹⁷ is a 0.
-                        let factors = columns.inverse() * direction;
-                        let rounded = factors.map(|factor| if factor.abs() < MAX_MISSED / 8.0 { 0.0 } else { factor });
-                        add([(rounded.x, a), (rounded.y, b), (rounded.z, c)]);
+                    // Cramer's rule.
+                    let determinant = across.dot(c.normal);
+                    if determinant.abs() <= MIN_DETERMINANT {
+                        continue;
                     }
+                    let of_c = across.dot(direction) / determinant;
+                    if of_c < -MAX_MISSED {
+                        continue;
+                    }
+                    let of_a = direction.cross(b.normal).dot(c.normal) / determinant;
+                    let of_b = a.normal.cross(direction).dot(c.normal) / determinant;
+                    // A factor of −10⁻¹⁷ is a 0.
+                    let [x, y, z] =
+                        [of_a, of_b, of_c].map(|factor| if factor.abs() < MAX_MISSED / 8.0 { 0.0 } else { factor });
+                    add([(x, a), (y, b), (z, c)]);
                 }
             }
         }

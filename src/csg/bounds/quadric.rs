@@ -136,11 +136,13 @@ struct Term {
 
 impl Term {
     fn at(self, y: f64) -> f64 {
-        // At infinity the square decides.
-        if self.square != 0.0 && y.is_infinite() {
-            return self.square * f64::INFINITY;
+        // Where y is infinite, 0 times y is still 0, and the square decides.
+        match (self.square == 0.0, self.half == 0.0) {
+            (true, true) => 0.0,
+            (true, false) => 2.0 * self.half * y,
+            (false, _) if y.is_infinite() => self.square * f64::INFINITY,
+            (false, _) => (self.square * y + 2.0 * self.half) * y,
         }
-        if self.half == 0.0 && self.square == 0.0 { 0.0 } else { (self.square * y + 2.0 * self.half) * y }
     }
 
     /// The least value over a range.

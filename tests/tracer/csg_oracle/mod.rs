@@ -161,6 +161,7 @@ impl Tally {
         let scene = Scene::random(rng, depth, grid, motion);
         let mut tree = Tree::default();
         let root = tree.add(&scene.solid).map(|(root, _)| root);
+        tree.finish();
         let (mut stack, mut hits) = (Stack::new(), Vec::new());
         for index in 0..RAYS_PER_TREE {
             let line = line(rng, grid, slope);

@@ -14,6 +14,7 @@ fn on(ray: &Ray, solid: &Solid) -> Crossings {
     let mut tree = Tree::default();
     let mut crossings = Vec::new();
     if let Some((root, _)) = tree.add(solid) {
+        tree.finish();
         let is_inside = tree.contains(root, ray.origin, 0.0);
         tree.crossings(root, ray, None, f64::INFINITY, is_inside, &mut Stack::new(), |Hit { t, enters, .. }| {
             crossings.push((t, enters));
