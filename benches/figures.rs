@@ -41,11 +41,6 @@ fn main() {
     let ceiling = median(turns.iter().map(|[one, _, both]| 2.0 * one / both));
     println!("  1 node {one:.3}, 2 nodes {two:.3}: {ratio:.3} times");
     println!("  two runs of 1 node at once {both:.3}: the computer itself gives {ceiling:.3} times");
-
-    println!("\none thread, no antialiasing, {SIZE}: million rays of all kinds a second, and POV-Ray 3.7 in turn");
-    for scene in ["ten-objects", "csg-primer", "glass", "machine-part", "corner", "rings"] {
-        against_povray(scene, directory.path(), &render);
-    }
 }
 
 /// Renders a scene. Returns the JSON report of the run.
@@ -65,55 +60,6 @@ fn paced(what: &str, nodes: &[&str], render: &impl Fn(&str, &[&str]) -> Value) {
     let of = |field: &str| median(runs.iter().map(|run| number(run, field)));
     let least = runs.iter().map(|run| number(run, "efficiency")).fold(1.0, f64::min);
     println!("  {what:<28} {:.4} (least {least:.4}), overhead {:.3}", of("efficiency"), of("overhead"));
-}
-
-/// Prints the rays per second of both programs.
-fn against_povray(scene: &str, directory: &std::path::Path, render: &impl Fn(&str, &[&str]) -> Value) {
-    let pov = directory.join(format!("{scene}.pov"));
-    let export = ["export", scene, "--size", SIZE, "--pov"];
-    let exported = Command::new(env!("CARGO_BIN_EXE_anel")).args(export).arg(&pov).status();
-    assert!(exported.is_ok_and(|status| status.success()), "the scene can be exported");
-    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
-    for _ in 0..RUNS {
-        let run = render(scene, &["--strategy", "serial"]);
-        let rays: f64 =
-            ["primary", "shadow", "reflected", "refracted"].map(|kind| number(&run["rays"], kind)).iter().sum();
-        ours.push((rays, number(&run, "makespan_s")));
-        let size = SIZE.split_once('x').expect("a size");
-        let povray = Command::new("povray")
-            .args([&format!("+I{}", pov.display()), &format!("+W{}", size.0), &format!("+H{}", size.1)])
-            .args(["+WT1", "-D", "-A", &format!("+O{}", directory.join("pov.png").display())])
-            .output();
-        if let Ok(output) = povray {
-            theirs.push(povray_figures(&String::from_utf8_lossy(&output.stderr)));
-        }
-    }
-    let rate = |runs: &[(f64, f64)]| median(runs.iter().map(|(rays, seconds)| rays / seconds / 1e6));
-    let seconds = |runs: &[(f64, f64)]| median(runs.iter().map(|(_, seconds)| *seconds));
-    print!("  {scene:<14} {:6.2} ({:.3} s)", rate(&ours), seconds(&ours));
-    if theirs.is_empty() {
-        println!("; povray is not installed");
-    } else {
-        let rates = median(ours.iter().zip(&theirs).map(|(a, b)| (a.0 / a.1) / (b.0 / b.1)));
-        let times = median(ours.iter().zip(&theirs).map(|(a, b)| b.1 / a.1));
-        println!(
-            "; POV-Ray {:.2} ({:.3} s): {rates:.2} times the rays a second, {times:.2} times as fast",
-            rate(&theirs),
-            seconds(&theirs)
-        );
-    }
-}
-
-/// The number of rays of all kinds and the seconds, from POV-Ray's last output.
-fn povray_figures(said: &str) -> (f64, f64) {
-    let after = |label: &str| {
-        let rest = said.split_once(label).map_or("", |(_, rest)| rest);
-        rest.trim_start().split(|c: char| !c.is_ascii_digit() && c != '.').next().and_then(|n| n.parse::<f64>().ok())
-    };
-    let trace_time = said.split_once("Trace Time:").map_or("", |(_, rest)| rest);
-    let seconds = trace_time.split_once('(').and_then(|(_, rest)| rest.split(' ').next()?.parse::<f64>().ok());
-    let rays = after("Rays:").unwrap_or(f64::NAN) + after("Shadow Ray Tests:").unwrap_or(0.0);
-    (rays, seconds.unwrap_or(f64::NAN))
 }
 
 fn number(value: &Value, field: &str) -> f64 {
