@@ -51,8 +51,7 @@ impl Bench<'_> {
     }
 
     fn compare(&self, size: [u32; 2]) {
-        let turns: Vec<(f64, f64)> =
-            (0..RUNS).filter_map(|_| Some((self.ours(size), self.theirs(size)?))).collect();
+        let turns: Vec<(f64, f64)> = (0..RUNS).filter_map(|_| Some((self.ours(size), self.theirs(size)?))).collect();
         let ours = median(turns.iter().map(|(ours, _)| *ours));
         let theirs = median(turns.iter().map(|(_, theirs)| *theirs));
         let ratio = median(turns.iter().map(|(ours, theirs)| theirs / ours));

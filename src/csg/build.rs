@@ -27,7 +27,7 @@ impl Tree {
     /// Adds a solid of which only the part within `around` matters: elsewhere it may miss parts, of which some are
     /// missing in what is subtracted.
     fn add_node(&mut self, outline: Outline, around: &Extent) -> Option<(NodeIndex, Aabb)> {
-        // Outside of the least box that needs no subtraction, no operand matters: there one of them is missing for sure.
+        // Outside of what contains the solid without subtractions no operand matters: one of them is missing for sure.
         let mut inner = outline.upper.as_ref().unwrap_or(&outline.extent).clone();
         let mut within = outline.extent;
         if self.passes.has(Pass::FoundBounds) {

@@ -49,8 +49,8 @@ impl Quadric {
 
     /// Planes at right angles to the quadric's axes, between which its part within `planes` lies.
     ///
-    /// Along each axis the quadric's term is at most what the least values of the others leave for it (hull consistency;
-    /// Benhamou et al., *Revising hull and box consistency*, 1999).
+    /// Along each axis the quadric's term is at most what the least values of the others leave for it (hull
+    /// consistency; Benhamou et al., *Revising hull and box consistency*, 1999).
     pub fn clip(&self, planes: &Polyhedron, reach: f64) -> Vec<Plane> {
         let at = |axis: usize| self.axes.col(axis);
         let centre = [0, 1, 2].map(|axis| at(axis).dot(self.centre));
