@@ -74,7 +74,7 @@ impl Bench<'_> {
         let run: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| {
             panic!("no figures of {}: {}", self.scene, String::from_utf8_lossy(&output.stderr));
         });
-        run["makespan_s"].as_f64().unwrap_or(f64::NAN)
+        run["work_s"].as_f64().unwrap_or(f64::NAN)
     }
 
     /// Does the same with POV-Ray; nothing if it is not installed.
@@ -108,7 +108,7 @@ impl Bench<'_> {
 /// The CPU seconds of tracing, from POV-Ray's last output.
 fn trace_seconds(said: &str) -> Option<f64> {
     let (_, trace_time) = said.split_once("Trace Time:")?;
-    let (_, seconds) = trace_time.split_once('(')?;
+    let (_, seconds) = trace_time.split_once("thread(s) with ")?;
     seconds.split(' ').next()?.parse().ok()
 }
 

@@ -50,6 +50,20 @@ fn built_in_scenes_show_many_colours_and_only_finite_ones() {
     }
 }
 
+/// The bits of all colours in linear light, as one number (Fowler, Noll and Vo, FNV-1a).
+fn hash(pixels: &[Colour]) -> u64 {
+    let bytes = pixels.iter().flatten().flat_map(|channel| channel.to_bits().to_le_bytes());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// A change of any bit of any pixel is a change of the pictures: is it meant, then put the text into the file.
+#[test]
+fn pictures_have_the_same_bits_on_every_computer() {
+    let lines = BUILT_IN.iter().map(|(name, text)| format!("{name} {:016x}\n", hash(&pixels(&parse(name, text)))));
+    let found: String = lines.collect();
+    assert_eq!(found, include_str!("golden/pictures.txt"), "\n{found}");
+}
+
 #[test]
 fn scene_of_the_article_has_ten_objects_and_two_lights() {
     let (name, text) = BUILT_IN[0];
