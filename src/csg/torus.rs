@@ -86,6 +86,11 @@ impl Roots {
 fn from_closest_approach(tube: f64, p: DVec3, u: DVec3) -> Roots {
     let mut roots = Roots::default();
     let Some(range) = bounding_range(tube, p, u) else { return roots };
+    // The distance from the axis is greatest at an end: a line that is in the hole at both stays there.
+    let hole = (1.0 - tube) * (1.0 - 1e-9);
+    if [range.start, range.end].into_iter().all(|end| axis_distance(p + u * end) < hole) {
+        return roots;
+    }
     // F = τ⁴ + 4 along τ³ + square τ² + …; `along` is 0 up to rounding.
     let along = p.dot(u);
     let k = p.length_squared() + 1.0 - tube * tube;
