@@ -14,7 +14,7 @@ use crate::balance::Strategy;
 use crate::gui::input::keys::UserCommand;
 use crate::gui::session::{PreparedLesson, PreparingLesson, Purpose, Recorded, Session, TracedShare};
 use crate::gui::widgets::icons::Icon;
-use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, path_field};
+use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, open_field};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, progress};
 use crate::language::{Language, word};
@@ -256,7 +256,7 @@ impl Learn {
         ui.horizontal(|ui| {
             let hint = word!(language, "path of a lesson, for example mine.ron", "uma lição, por exemplo minha.ron");
             let name = word!(language, "Path of a lesson", "Caminho de uma lição");
-            let field = path_field(ui, (self.path.text_mut(), hint), 40.0 * GRID, name, &mut false);
+            let field = open_field(ui, (self.path.text_mut(), hint), 40.0 * GRID, name, &mut false);
             let opens =
                 button(ui, None, word!(language, "Open the lesson", "Abrir a lição"), true, Emphasis::Quiet).clicked();
             if (field.entered || opens) && !self.path.text().trim().is_empty() {
