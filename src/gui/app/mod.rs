@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 
 use super::input::keys;
 use super::input::selection::Selection;
-use super::input::zoom;
+use super::input::{tab_order, zoom};
 use super::pages::accuracy::Accuracy;
 use super::pages::compare::Compare;
 use super::pages::gallery::Gallery;
@@ -109,6 +109,7 @@ impl App {
         theme::install(ctx);
         test_positions::install(ctx);
         zoom::install(ctx);
+        tab_order::install(ctx);
         Look::set_strong(ctx, stored.projector);
         let settings = if stored.settings.check(language).is_ok() { stored.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));

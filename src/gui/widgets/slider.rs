@@ -1,6 +1,6 @@
 //! A slim slider.
 
-use egui::{Color32, Response, Stroke, Ui, WidgetInfo, pos2};
+use egui::{Color32, Event, MouseWheelUnit, Response, Stroke, Ui, WidgetInfo, pos2};
 
 use super::theme::{GRID, Look};
 
@@ -37,6 +37,17 @@ impl Scale {
         };
         share.clamp(0.0, 1.0) as f32
     }
+}
+
+/// Returns by how many notches the wheel was turned up over a widget; negative if it was turned down.
+pub fn wheel_steps(ui: &Ui, widget: &Response) -> i32 {
+    let notches = |event: &Event| match event {
+        Event::MouseWheel { unit: MouseWheelUnit::Line, delta, modifiers, .. } if !modifiers.any() => {
+            delta.y.round() as i32
+        }
+        _ => 0,
+    };
+    if widget.hovered() { ui.input(|input| input.events.iter().map(notches).sum()) } else { 0 }
 }
 
 /// Shows a slider with its filled part in `colour`. `name` is its accessible name.
