@@ -164,7 +164,7 @@ fn extension_of_a_typed_name_follows_the_kind() {
     key(&mut window, Key::S);
     type_path(&mut window, FIELD, "/tmp/mine.png".as_ref());
     for (kind, name) in
-        [("timeline", "mine.svg"), ("animation", "mine.gif"), ("table", "mine.csv"), ("render", "mine.png")]
+        [("timeline", "mine.svg"), ("animation (GIF)", "mine.gif"), ("table", "mine.csv"), ("render", "mine.png")]
     {
         choose_kind(&mut window, kind);
         assert_eq!(file_name(&typed(&window)), name);

@@ -73,8 +73,14 @@ impl App {
                     "A imagem foi copiada para a área de transferência"
                 ));
             }
-            UserCommand::Save => self.save_sheet.toggle(session),
-            UserCommand::SaveRun => self.save_sheet.open_for_run(session),
+            UserCommand::Save => {
+                self.save_sheet.toggle(session);
+                self.make_room_for_run(ctx, true);
+            }
+            UserCommand::SaveRun => {
+                self.save_sheet.open_for_run(session);
+                self.make_room_for_run(ctx, true);
+            }
             UserCommand::Scenes => {
                 self.accuracy.close(session);
                 self.compare.close(session);
@@ -100,7 +106,10 @@ impl App {
                 self.compare.toggle(session);
             }
             UserCommand::Reload => session.reload(),
-            UserCommand::Setup => self.setup.open = !self.setup.open,
+            UserCommand::Setup => {
+                self.setup.open = !self.setup.open;
+                self.make_room_for_run(ctx, false);
+            }
             UserCommand::Undo => session.undo(),
             UserCommand::Redo => session.redo(),
             UserCommand::Select(node) if usize::from(node) < session.header().speeds.len() => {

@@ -147,7 +147,32 @@ pub fn number_field<N: egui::emath::Numeric>(
     range: RangeInclusive<N>,
     suffix: &str,
     width: f32,
+    label: (&str, Language),
+) -> Response {
+    // With every key, the beginning of a longer number would count.
+    field_of_number(ui, value, range, suffix, width, label, false)
+}
+
+/// Shows a number field like [`number_field`] whose value follows with every key.
+pub fn live_number_field<N: egui::emath::Numeric>(
+    ui: &mut Ui,
+    value: &mut N,
+    range: RangeInclusive<N>,
+    suffix: &str,
+    width: f32,
+    label: (&str, Language),
+) -> Response {
+    field_of_number(ui, value, range, suffix, width, label, true)
+}
+
+fn field_of_number<N: egui::emath::Numeric>(
+    ui: &mut Ui,
+    value: &mut N,
+    range: RangeInclusive<N>,
+    suffix: &str,
+    width: f32,
     (name, language): (&str, Language),
+    is_live: bool,
 ) -> Response {
     ui.scope(|ui| {
         // A low row has small text.
@@ -168,12 +193,12 @@ pub fn number_field<N: egui::emath::Numeric>(
                 .map_err(|why| refused.set(Some((text.trim().to_owned(), why))))
                 .ok()
         };
-        // With every key, the beginning of a longer number would count.
         let field = DragValue::new(value).range(range).suffix(suffix).max_decimals(0).speed(speed);
-        let field = field.update_while_editing(false).custom_parser(parse);
+        let field = field.update_while_editing(is_live).custom_parser(parse);
         let response = ui.add(field.custom_formatter(|number, _| number::format(number, language)));
         keep_escape(ui, &response);
-        show_refusal(ui, &response, refused.take(), name);
+        // The beginning of a number need not be one.
+        show_refusal(ui, &response, refused.take().filter(|_| !is_live || !response.has_focus()), name);
         let exact = value.to_f64();
         response.widget_info(|| WidgetInfo {
             label: Some(name.to_owned()),
