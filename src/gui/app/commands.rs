@@ -46,6 +46,7 @@ impl App {
                 session.restart();
                 session.end_notices();
             }
+            UserCommand::RestartRecovering => session.restart_recovering(),
             UserCommand::Step(by, forward) => session.step(by, forward),
             UserCommand::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
             UserCommand::SetRate(index) => session.stage_mut().set_rate(index),

@@ -250,14 +250,18 @@ impl App {
             self.machines(ui, ui.available_height() - usual - time::HEIGHT_PT, sheet);
         }
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
-        words.show(ui, |ui| {
+        let command = words.show(ui, |ui| {
             if lesson.is_some() {
                 self.learn.show_step(ui, &mut self.session);
-            } else {
-                let place = narration::show(ui, &self.session, self.selected.as_ref(), notice);
-                self.notices(ui, place);
+                return None;
             }
+            let (place, command) = narration::show(ui, &self.session, self.selected.as_ref(), notice);
+            self.notices(ui, place);
+            command
         });
+        if let Some(command) = command.inner {
+            self.handle_command(command, ui.ctx());
+        }
         if lesson.is_some() {
             self.notice_panel(ui);
         }

@@ -60,7 +60,7 @@ pub fn show(ui: &mut Ui, session: &Session, open: OpenPages) -> Option<UserComma
             ui.add_space(GRID);
             // Compare has a clock of its own.
             if !open.compare {
-                clock(ui, session.stage(), look, language);
+                clock(ui, session, look);
                 if let Some(state) = time_state(session).filter(|_| ui.available_width() > 260.0) {
                     ui.label(quiet(state.into(), look.quiet));
                 }
@@ -266,6 +266,7 @@ fn time_state(session: &Session) -> Option<&'static str> {
     let stage = session.stage();
     match (stage.phase == Phase::Running, stage.is_live(), stage.goes_on()) {
         (_, true, _) if stage.paused => Some(word!(language, "paused at", "em pausa em")),
+        (_, true, _) if session.recovering_scheduler().is_some() => Some(word!(language, "hangs since", "parou em")),
         (_, true, _) => None,
         (true, false, true) => Some(word!(language, "earlier", "antes")),
         (false, false, true) => Some(word!(language, "again", "de novo")),
@@ -282,10 +283,13 @@ fn longest_time(stage: &Stage) -> Time {
 
 /// Shows the time of the run. It has the width of the longest time that is to be expected, so that its neighbours stay
 /// in their places.
-fn clock(ui: &mut Ui, stage: &Stage, look: Look, language: Language) {
+fn clock(ui: &mut Ui, session: &Session, look: Look) {
+    let (stage, language) = (session.stage(), session.language());
     let (scale, font) = (stage.playback_scale(), theme::strong(theme::LARGE));
     let layout = |time| ui.painter().layout_no_wrap(time_words(time, scale, language), font.clone(), look.text);
-    let time = stage.lasted();
+    // In a run that hangs for ever nothing happens any more.
+    let hangs = session.recovering_scheduler().is_some();
+    let time = if hangs { stage.lasted().min(stage.state().head()) } else { stage.lasted() };
     let size = layout(longest_time(stage)).size();
     // Without a gap it would touch the scene's name.
     if size.x + GRID < ui.available_width() {

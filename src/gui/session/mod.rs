@@ -42,6 +42,7 @@ pub use comparing::ComparisonSubject;
 pub use export_file::{Export, PictureExport};
 use exporting::ExportJob;
 pub use exporting::ExportProgress;
+pub use failing::only_live_words;
 use inspecting::Inspecting;
 use job_result::Ready;
 pub use job_result::{

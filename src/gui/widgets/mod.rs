@@ -20,7 +20,7 @@ use egui::{
     Role, Sense, Stroke, StrokeKind, TextStyle, Tooltip, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::language::{Language, word};
+use crate::language::Language;
 use icons::Icon;
 use number::{NumberError, RefusedNumber};
 use theme::{GRID, Look};
@@ -246,14 +246,13 @@ fn show_refusal(ui: &Ui, response: &Response, refused: Option<(String, NumberErr
 }
 
 /// Shows the content of a menu for a machine or a message: a title, a row for each action with its text and its key,
-/// and a hint. The rows are disabled unless the run `is_possible` to change. Returns the chosen action.
+/// and a hint. The rows are disabled unless they are possible. Returns the chosen action.
 pub fn action_menu<T>(
     ui: &mut Ui,
     title: &str,
     actions: impl IntoIterator<Item = (T, String, &'static str)>,
     (is_possible, hint): (bool, &str),
     look: Look,
-    language: Language,
 ) -> Option<T> {
     ui.set_width(34.0 * GRID);
     let title = Label::new(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text)).wrap();
@@ -267,13 +266,7 @@ pub fn action_menu<T>(
             }
         });
     }
-    let disabled_hint = word!(
-        language,
-        "Only in a live run that has not ended. Press Restart",
-        "Só numa execução ao vivo que não terminou. Pressione Reiniciar"
-    );
-    let hint = RichText::new(if is_possible { hint } else { disabled_hint });
-    let hint = Label::new(hint.font(theme::regular(theme::SMALL)).color(look.quiet)).wrap();
+    let hint = Label::new(RichText::new(hint).font(theme::regular(theme::SMALL)).color(look.quiet)).wrap();
     // The layout of a menu would stretch the lines.
     ui.with_layout(Layout::top_down(Align::Min), |ui| ui.add(hint));
     chosen
