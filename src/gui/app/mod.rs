@@ -16,7 +16,7 @@ use eframe::Storage;
 use egui::{Align, Context, Frame, Layout, Margin, Panel, Ui, UiBuilder};
 use serde::{Deserialize, Serialize};
 
-use super::input::keys;
+use super::input::keys::{self, UserCommand};
 use super::input::selection::Selection;
 use super::input::{tab_order, zoom};
 use super::pages::accuracy::Accuracy;
@@ -68,6 +68,8 @@ pub struct App {
     /// Details of the selected subject.
     selected: Option<Details>,
     highlight: Highlight,
+    /// While a lesson is open: whether the timeline was shown before it.
+    timeline_before_lesson: Option<bool>,
     /// `Session::runs_begun` at the last frame.
     runs_begun: usize,
     /// Presentation mode: large text, strong colours, no controls.
@@ -141,6 +143,7 @@ impl App {
             hovered: None,
             selected: None,
             highlight: Highlight::default(),
+            timeline_before_lesson: None,
             runs_begun: 0,
             projector: stored.projector,
             quitting: Quitting::default(),
@@ -227,7 +230,9 @@ impl App {
                 if self.gallery.is_open() {
                     self.gallery.show(ui, &mut self.session);
                 } else if self.learn.is_open() {
-                    self.learn.show(ui, &mut self.session);
+                    if self.learn.show(ui, &mut self.session, self.projector) {
+                        self.handle_command(UserCommand::Projector, ui.ctx());
+                    }
                 } else if self.compare.is_open() {
                     self.compare.show(ui, &mut self.session);
                 } else {
@@ -323,6 +328,16 @@ impl App {
         self.split.drag(ui, below.response.rect, self.session.language());
     }
 
+    /// Leaves the camera alone in a lesson, whose runs are recorded, and brings the table of machines back after it.
+    fn begin_or_end_lesson(&mut self) {
+        if !self.learn.is_on() {
+            self.shows_timeline = self.timeline_before_lesson.take().unwrap_or(self.shows_timeline);
+        } else if self.timeline_before_lesson.is_none() {
+            self.timeline_before_lesson = Some(self.shows_timeline);
+            self.picture.moves_camera = false;
+        }
+    }
+
     fn timeline(&mut self, ui: &mut Ui) {
         let hovered = self.hovered.as_ref();
         self.timeline.show(ui, &mut self.session, &mut self.selection, &self.highlight, hovered);
@@ -397,6 +412,7 @@ impl eframe::App for App {
             }
         }
         self.close_when_written(ctx);
+        self.begin_or_end_lesson();
         if let Some(selected) = self.learn.tick(&mut self.session) {
             self.selection.selected = selected;
             self.shows_timeline = self.learn.wants_timeline().unwrap_or(self.shows_timeline);
@@ -441,7 +457,7 @@ impl eframe::App for App {
             recent: self.session.recent().iter().map(|path| stored_path::write(path)).collect(),
             blend: Some(self.picture.blend),
             is_setup_open: self.setup.open,
-            shows_timeline: self.shows_timeline,
+            shows_timeline: self.timeline_before_lesson.unwrap_or(self.shows_timeline),
             split: self.split.share,
             language: Some(self.session.language()),
             projector: self.projector,

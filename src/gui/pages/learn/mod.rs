@@ -192,10 +192,11 @@ impl Learn {
         }
     }
 
-    /// Shows the list.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+    /// Shows the list. Returns whether presentation mode is to be switched.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, is_projector: bool) -> bool {
         let language = session.language();
         let look = Look::of(ui.ctx());
+        let mut switches = false;
         ui.horizontal(|ui| {
             ui.label(
                 RichText::new(word!(language, "Learn", "Lições")).font(theme::strong(theme::LARGE)).color(look.text),
@@ -205,6 +206,14 @@ impl Learn {
                 if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
                     self.close();
                 }
+                let emphasis = if is_projector { Emphasis::On } else { Emphasis::Quiet };
+                let name = word!(language, "For a projector", "Para o projetor");
+                let hint = word!(
+                    language,
+                    "Large text and strong colours, without controls (F11)",
+                    "Texto grande e cores fortes, sem controles (F11)"
+                );
+                switches = button(ui, None, name, true, emphasis).on_hover_text(hint).clicked();
                 self.progress(ui, session, look);
             });
         });
@@ -229,6 +238,7 @@ impl Learn {
             ui.add_space(GRID);
             self.own_lesson(ui, session, look);
         });
+        switches
     }
 
     /// Shows the progress of the lesson that is being prepared, and the button that cancels it.
