@@ -55,7 +55,7 @@ fn run_is_saved_and_opened_with_keys() {
     until(&mut window, "notice", |window| notice(window).contains("run.anel"));
     escape(&mut window);
     key(&mut window, Key::O);
-    press(&mut window, "Open the last saved run");
+    press(&mut window, "Open the last saved run: run.anel");
     until(&mut window, "the run", |window| session(window).is_recorded());
     assert_eq!(session(&window).header().scene, "ten-objects");
 }

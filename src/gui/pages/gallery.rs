@@ -165,12 +165,13 @@ impl Gallery {
             );
             ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
             let last = session.recent().iter().find(|path| has_ending(path, "anel") && path.is_file()).cloned();
-            let name = word!(language, "Open the last saved run", "Abrir a última execução salva");
-            if let Some(last) = last
-                && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(last.to_string_lossy()).clicked()
-            {
-                self.close();
-                session.open(last);
+            if let Some(last) = last {
+                let file = last.file_name().unwrap_or(last.as_os_str()).to_string_lossy();
+                let name = say!(language, "Open the last saved run: {file}", "Abrir a última execução salva: {file}");
+                if button(ui, None, &name, true, Emphasis::Quiet).on_hover_text(last.to_string_lossy()).clicked() {
+                    self.close();
+                    session.open(last);
+                }
             }
         });
     }

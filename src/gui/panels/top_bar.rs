@@ -204,7 +204,8 @@ fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> 
             "Undo the last change of a speed or a setting (Ctrl Z)",
             "Desfazer a última mudança de velocidade ou de ajuste (Ctrl Z)"
         );
-        if button.on_hover_text(hint).clicked() {
+        let nothing = word!(language, "Undo: nothing to undo yet (Ctrl Z)", "Desfazer: ainda nada a desfazer (Ctrl Z)");
+        if button.on_hover_text(hint).on_disabled_hover_text(nothing).clicked() {
             clicked = Some(UserCommand::Undo);
         }
     });
@@ -248,7 +249,11 @@ fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> 
         false if stage.phase == Phase::Preparing => (Icon::Pause, pause),
         false => (Icon::Play, resume),
     };
-    let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_)) && !open.compare;
+    // Compare has a clock and a button of its own.
+    if open.compare {
+        return clicked;
+    }
+    let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_));
     // A narrow bar has no room for it.
     let room = if labelled > 0 { play_room(ui, language) } else { 0.0 };
     ui.add_enabled_ui(can, |ui| {
