@@ -18,7 +18,10 @@ use crate::view::{
     record_words, result_words, summary_figures, time_words, unfinished_words, work_split_words,
 };
 
+/// Height of the sentence, in points.
 const SENTENCE_HEIGHT_PT: f32 = 3.25 * GRID;
+/// Height of a warning with its button, in points.
+const WARNING_HEIGHT_PT: f32 = 4.25 * GRID;
 const EVENT_HEIGHT_PT: f32 = 2.25 * GRID;
 const BAR_HEIGHT_PT: f32 = 3.0 * GRID;
 
@@ -63,6 +66,8 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f
             pressed = sentence(upper, session, look);
             let stage = session.stage();
             let (narrator, now) = (stage.narrator(), session.now());
+            // A warning takes the room of one.
+            let lines = lines.saturating_sub(usize::from(session.recovering_scheduler().is_some()));
             let told = usize::from(narrator.event_time(stage.state(), now).is_some());
             let more = narrator.events_so_far().saturating_sub(told + lines);
             let others = narrator.other_events(stage.state(), now).rev().take(lines);
@@ -152,14 +157,15 @@ fn sentence(ui: &mut Ui, session: &Session, look: Look) -> Option<UserCommand> {
         Some(record) => Some(record.at),
         None => stage.narrator().event_time(stage.state(), session.now()),
     };
-    let (width, height) = (time_width(ui, stage, language), SENTENCE_HEIGHT_PT);
+    let recovering = session.recovering_scheduler();
+    let width = time_width(ui, stage, language);
+    let height = if recovering.is_some() { WARNING_HEIGHT_PT } else { SENTENCE_HEIGHT_PT };
     let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     let when =
         event.map_or(word!(language, "now", "agora").into(), |at| time_words(at, stage.playback_scale(), language));
     let at = pos2(row.left() + width, row.top() + 0.5 * SENTENCE_HEIGHT_PT);
     ui.painter().text(at, Align2::RIGHT_CENTER, when, theme::regular(theme::SMALL), look.quiet);
     let mut room = row.with_min_x(row.left() + width + GRID);
-    let recovering = session.recovering_scheduler();
     let is_pressed = recovering.as_ref().is_some_and(|scheduler| {
         let name = if *scheduler == Scheduler::Protocol(Strategy::Adaptive) {
             word!(language, "Again with the adaptive ring", "De novo com o anel adaptativo")
@@ -173,7 +179,7 @@ fn sentence(ui: &mut Ui, session: &Session, look: Look) -> Option<UserCommand> {
             "Start the run again with the strategy that recovers from a failure",
             "Iniciar a execução de novo com a estratégia que se recupera de uma falha"
         );
-        let at = Rect::from_center_size(at.center(), vec2(at.width(), 4.0 * GRID));
+        let at = Rect::from_min_size(at.min, vec2(at.width(), 4.0 * GRID));
         let shown = |ui: &mut Ui| hint_above(button(ui, None, name, true, Emphasis::Primary), hint).clicked();
         ui.scope_builder(UiBuilder::new().max_rect(at), shown).inner
     });

@@ -113,6 +113,7 @@ pub fn work_split_words(state: &RunState, language: Language) -> Option<String> 
         }
         scheduler => {
             let costliest = Costliest::of(state).map(|costliest| costliest.words(state, language));
+            let costliest = costliest.or_else(|| message_wait_words(state, Duration::ZERO, language));
             let parts = counted(state.handed_out.count, word!(language, "part", "parte"), language);
             let handed_out = scheduler
                 .is_farm()
@@ -204,8 +205,8 @@ fn message_wait_words(state: &RunState, waited: Duration, language: Language) ->
         let (mean, latency) = (beside(whole, mean, language), duration(latency, language));
         say!(
             language,
-            "Waiting for messages cost most, {mean} of each machine on average: a hop takes {latency}",
-            "Esperar mensagens custou mais, {mean} de cada máquina em média: um salto leva {latency}"
+            "Waiting for messages cost most, {mean} of each machine on average: one takes {latency}",
+            "Esperar mensagens custou mais, {mean} de cada máquina em média: uma leva {latency}"
         )
     })
 }
@@ -363,7 +364,7 @@ mod tests {
         };
         let (slow, fast) = (words(500), words(0));
         assert!(slow.starts_with("Waiting for messages cost most, "), "{slow}");
-        assert!(slow.contains(" of each machine on average: a hop takes 500 ms. The others waited "), "{slow}");
+        assert!(slow.contains(" of each machine on average: one takes 500 ms"), "{slow}");
         assert!(!fast.contains("messages"), "{fast}");
     }
 

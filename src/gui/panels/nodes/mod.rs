@@ -160,9 +160,9 @@ fn figures(ui: &Ui, layout: &RowLayout, row: &NodeRow, session: &Session, look: 
     let now = pos2(layout.activity, y);
     // Where a row has no room for all, the activity alone.
     let (words, activity) = (row_words(row, language), activity_word(row.activity, language).to_owned());
-    let colour = if row.lost > 0 { look.trouble } else { ink(!is_calm) };
+    let words_ink = if row.lost > 0 { look.trouble } else { ink(!is_calm) };
     let layouts = [(&words, size), (&words, theme::SMALL), (&activity, size), (&activity, theme::SMALL)]
-        .map(|(words, size)| painter.layout_no_wrap(words.clone(), theme::regular(size), colour));
+        .map(|(words, size)| painter.layout_no_wrap(words.clone(), theme::regular(size), words_ink));
     let [.., least] = &layouts;
     let galley = layouts.iter().find(|galley| now.x + galley.size().x <= layout.row.right()).unwrap_or(least).clone();
     painter.galley(now - vec2(0.0, galley.size().y / 2.0), galley, look.text);

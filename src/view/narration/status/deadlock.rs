@@ -60,8 +60,8 @@ pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<Stri
         let atoms = atoms_words(lost, language);
         match lost {
             _ if !is_lost => who,
-            1 => say!(language, "{who} and {atoms} is lost", "{who} e {atoms} se perdeu"),
-            _ => say!(language, "{who} and {atoms} are lost", "{who} e {atoms} se perderam"),
+            1 => say!(language, "{who} and {atoms} is lost", "{who}, {atoms} perdido"),
+            _ => say!(language, "{who} and {atoms} are lost", "{who}, {atoms} perdidos"),
         }
     };
     match *failed {
@@ -96,13 +96,13 @@ fn recovery_words(state: &RunState, language: Language) -> &'static str {
         word!(
             language,
             "this farm cannot recover, the farm with leases can",
-            "esta divisão dinâmica não se recupera, a com prazos sim"
+            "esta dinâmica não se recupera, a com prazos sim"
         )
     } else {
         word!(
             language,
             "the adaptive ring and the farm with leases can recover",
-            "o anel adaptativo e a dinâmica com prazos se recuperam"
+            "o adaptativo e a dinâmica com prazos se recuperam"
         )
     }
 }
