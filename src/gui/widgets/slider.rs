@@ -20,6 +20,9 @@ impl Scale {
     /// Value of the logarithmic scale just right of its left end, which is 0.
     const LEAST_PERCENT: f64 = 0.4;
 
+    /// Values that the logarithmic scale marks with ticks.
+    const TICKS_PERCENT: [f64; 3] = [1.0, 10.0, 100.0];
+
     fn ends(self) -> (f64, f64) {
         match self {
             Self::Linear(min, max) | Self::Whole(min, max) => (min, max),
@@ -74,6 +77,13 @@ pub fn slider(ui: &mut Ui, value: &mut f64, scale: Scale, width: f32, colour: Co
         let left = response.rect.left() + radius;
         let x = left + (response.rect.width() - 2.0 * radius) * scale.position(*value);
         let handle = pos2(x, response.rect.center().y);
+        if scale == Scale::Percent {
+            for tick in Scale::TICKS_PERCENT {
+                let x = left + (response.rect.width() - 2.0 * radius) * scale.position(tick);
+                let below = handle.y + 4.0..=handle.y + 7.0;
+                ui.painter().vline(x, below, Stroke::new(1.0, look.quiet));
+            }
+        }
         let handle_radius = if response.hovered() || response.dragged() { radius + 1.0 } else { radius };
         let line = if ui.is_enabled() { look.text } else { look.quiet };
         ui.painter().circle(handle, handle_radius, colour, Stroke::new(2.0, line));
