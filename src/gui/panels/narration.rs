@@ -44,7 +44,7 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f
     let upper = &mut ui.new_child(UiBuilder::new().max_rect(above));
     let lines = ((above.height() - SENTENCE_HEIGHT_PT).max(0.0) / EVENT_HEIGHT_PT) as usize;
     upper.spacing_mut().item_spacing.y = 0.0;
-    upper.shrink_clip_rect(above.with_max_y(above.bottom() + if notice > 0.0 { 0.0 } else { GRID }));
+    upper.shrink_clip_rect(above.with_max_y(above.bottom() + if notice > 0.0 { GRID / 2.0 } else { GRID }));
     let mut pressed = None;
     match details {
         Some(details) => {
