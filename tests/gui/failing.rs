@@ -139,9 +139,7 @@ fn keys_of_failures_say_why_they_do_nothing() {
     type_number(&mut window, "Number of machines", "2");
     press(&mut window, "Full speed");
     until(&mut window, "the end", |window| session(window).stage().phase == anel::gui::Phase::Finished);
-    while !notice(&window).is_empty() {
-        press(&mut window, "Close notice");
-    }
+    until(&mut window, "no notice", |window| notice(window).is_empty());
     key(&mut window, Key::Num1);
     // The result stays with the details of the selection.
     window.get_by_label("Result");

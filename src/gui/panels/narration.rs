@@ -48,18 +48,15 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f
     let mut pressed = None;
     match details {
         Some(details) => {
-            // The result or the sentence of the moment stays, unless the window is too low for both.
-            let stays = lines > 0 || notice > 0.0;
-            if stays && session.stage().result().is_some() {
+            // Where there is room for both, the result or the sentence of the moment stays.
+            if lines > 0 && session.stage().result().is_some() {
                 let (result_area, _) =
                     upper.allocate_exact_size(vec2(above.width(), SENTENCE_HEIGHT_PT), Sense::hover());
                 upper.scope_builder(UiBuilder::new().max_rect(result_area), |ui| result(ui, session, look));
-            } else if stays {
+            } else if lines > 0 {
                 pressed = sentence(upper, session, look);
             }
-            if lines > 0 || !stays {
-                selected(upper, session, details, look);
-            }
+            selected(upper, session, details, look);
         }
         None if session.stage().result().is_some() => result(upper, session, look),
         None => {
