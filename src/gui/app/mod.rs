@@ -9,12 +9,12 @@ mod quitting;
 mod repaint_schedule;
 mod saving;
 mod stored_path;
+mod stored_state;
 
 use std::time::Duration;
 
 use eframe::Storage;
 use egui::{Align, Context, Frame, Layout, Margin, Panel, Ui, UiBuilder};
-use serde::{Deserialize, Serialize};
 
 use super::input::keys::{self, UserCommand};
 use super::input::selection::Selection;
@@ -25,7 +25,7 @@ use super::pages::gallery::Gallery;
 use super::pages::help::{self, HelpTab};
 use super::pages::learn::Learn;
 use super::panels::picture::PicturePanel;
-use super::panels::save_sheet::{FilmOptions, SaveSheet};
+use super::panels::save_sheet::SaveSheet;
 use super::panels::setup::{self, SetupPanel};
 use super::panels::time::{self, TimePanel};
 use super::panels::timeline::{self, TimelinePanel};
@@ -36,7 +36,7 @@ use super::widgets::number::RefusedNumber;
 use super::widgets::test_positions;
 use super::widgets::theme::{self, GRID, Look};
 use crate::balance::NodeId;
-use crate::language::{Language, say};
+use crate::language::say;
 use crate::time::Time;
 use crate::view::{Details, Highlight, Subject};
 pub use launch::Launch;
@@ -44,6 +44,7 @@ use main_area_layout::{Split, split_main_area};
 pub use open_stack::Closable;
 use open_stack::OpenStack;
 use quitting::Quitting;
+use stored_state::StoredState;
 
 /// The content of the window.
 pub struct App {
@@ -76,27 +77,6 @@ pub struct App {
     projector: bool,
     quitting: Quitting,
     open_stack: OpenStack,
-}
-
-/// The state that the next window restores, beside egui's own.
-#[derive(Default, Serialize, Deserialize)]
-#[serde(default)]
-struct StoredState {
-    settings: Settings,
-    scene: Option<String>,
-    recent: Vec<String>,
-    blend: Option<f64>,
-    #[serde(rename = "setup")]
-    is_setup_open: bool,
-    #[serde(rename = "timeline")]
-    shows_timeline: bool,
-    /// Height of the table or the timeline, as a share of the window's.
-    split: Option<f32>,
-    language: Option<Language>,
-    projector: bool,
-    film: FilmOptions,
-    /// Whether a changed scene is reloaded without a question.
-    always_reload: bool,
 }
 
 /// Key of [`StoredState`] in eframe's storage.
@@ -447,24 +427,7 @@ impl eframe::App for App {
     }
 
     fn save(&mut self, storage: &mut dyn Storage) {
-        let scene = self.session.opened().and_then(|opened| match &opened.path {
-            Some(path) => std::path::absolute(path).ok().map(|path| stored_path::write(&path)),
-            None => crate::scene::built_in(&opened.name).map(|_| opened.name.clone()),
-        });
-        let stored = StoredState {
-            settings: self.session.settings().clone(),
-            scene,
-            recent: self.session.recent().iter().map(|path| stored_path::write(path)).collect(),
-            blend: Some(self.picture.blend),
-            is_setup_open: self.setup.open,
-            shows_timeline: self.timeline_before_lesson.unwrap_or(self.shows_timeline),
-            split: self.split.share,
-            language: Some(self.session.language()),
-            projector: self.projector,
-            film: self.save_sheet.film(),
-            always_reload: self.session.always_reloads(),
-        };
-        eframe::set_value(storage, STORAGE_KEY, &stored);
+        eframe::set_value(storage, STORAGE_KEY, &self.stored());
     }
 
     #[cfg(feature = "glow")]
