@@ -52,7 +52,8 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f
             if lines > 0 && session.stage().result().is_some() {
                 let (result_area, _) =
                     upper.allocate_exact_size(vec2(above.width(), SENTENCE_HEIGHT_PT), Sense::hover());
-                upper.scope_builder(UiBuilder::new().max_rect(result_area), |ui| result(ui, session, look));
+                // A child of its own leaves the room below to the details.
+                result(&mut upper.new_child(UiBuilder::new().max_rect(result_area)), session, look);
             } else if lines > 0 {
                 pressed = sentence(upper, session, look);
             }
