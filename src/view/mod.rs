@@ -61,6 +61,7 @@ pub use narration::event_sentences::before_virtual_time;
 pub use narration::happening::Happening;
 pub use narration::narrator::Narrator;
 pub use narration::record_sentences::{record_words, share_words};
+pub use narration::status::deadlock::recovering_scheduler;
 pub use narration::status::incomplete::unfinished_words;
 pub use picture::bands_cost::cheapest_and_costliest;
 pub use picture::canvas::Canvas;

@@ -76,6 +76,68 @@ fn bad_scene_names_the_place_and_does_not_replace_the_open_one() {
 }
 
 #[test]
+fn file_that_could_not_be_opened_is_tried_again_and_watched() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let path = ball(&directory, "ball.ron");
+    std::fs::write(&path, scene("radius: -1")).expect("a file");
+    let mut window = open(SIZE);
+    key(&mut window, Key::F5);
+    assert!(notice(&window).starts_with("There is no file to reload"), "{}", notice(&window));
+    open_path(&mut window, &path);
+    until(&mut window, "notice", |window| notice(window).starts_with("Not opened"));
+    key(&mut window, Key::F5);
+    until(&mut window, "the same error", |window| notice(window).starts_with("Still not opened"));
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    std::fs::write(&path, scene("radius: -0.25")).expect("a file");
+    until(&mut window, "offer to reload", |window| notice(window).starts_with("ball.ron has changed on disk. Before:"));
+    press(&mut window, "Reload");
+    assert_ne!(notice(&window), "", "what was said stays until the file is read");
+    until(&mut window, "the next error", |window| notice(window).starts_with("Still not opened"));
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    std::fs::write(&path, scene("radius: 0.25")).expect("a file");
+    until(&mut window, "offer to reload", |window| notice(window).contains("has changed on disk"));
+    key(&mut window, Key::F5);
+    until(&mut window, "the mended scene", |window| shows(window, "ball"));
+    assert_eq!(notice(&window), "");
+    // With its notice a file is given up, and F5 is about the open one again.
+    std::fs::write(&path, scene("radius: 0.5")).expect("a file");
+    open_path(&mut window, &directory.path().join("nothing.ron"));
+    until(&mut window, "notice", |window| notice(window).contains("no such file"));
+    press(&mut window, "Close notice");
+    key(&mut window, Key::F5);
+    until(&mut window, "the scene again", |window| session(window).header().scene_text.contains("0.5"));
+}
+
+#[test]
+fn typed_path_takes_the_place_of_the_last_one() {
+    let directory = tempfile::tempdir().expect("a temporary directory");
+    let [first, second] = ["first.ron", "second.ron"].map(|name| ball(&directory, name));
+    let mut window = open(SIZE);
+    open_path(&mut window, &first);
+    until(&mut window, "the scene", |window| shows(window, "first"));
+    key(&mut window, Key::O);
+    window.run_steps(3);
+    window.get_by_label(FIELD).type_text(second.to_str().expect("a plain path"));
+    window.run_steps(2);
+    assert_eq!(window.get_by_label(FIELD).value().as_deref(), second.to_str());
+    // A click into the field selects all too; a second one sets the cursor.
+    key(&mut window, Key::Escape);
+    window.get_by_label(FIELD).click();
+    window.run_steps(3);
+    window.get_by_label(FIELD).type_text("mine.ron");
+    window.run_steps(2);
+    assert_eq!(window.get_by_label(FIELD).value().as_deref(), Some("mine.ron"));
+    type_path(&mut window, FIELD, &second);
+    key(&mut window, Key::Enter);
+    until(&mut window, "the scene", |window| shows(window, "second"));
+    // A full path behind the directory of the last one.
+    key(&mut window, Key::O);
+    type_path(&mut window, FIELD, Path::new(&format!("{}/{}", directory.path().display(), first.display())));
+    key(&mut window, Key::Enter);
+    until(&mut window, "the scene", |window| shows(window, "first"));
+}
+
+#[test]
 fn notice_about_a_file_ends_when_a_file_is_opened() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = ball(&directory, "ball.ron");

@@ -126,6 +126,26 @@ fn chosen_ray_has_its_own_terms_and_the_text_can_be_copied() {
 }
 
 #[test]
+fn drag_that_moves_nothing_says_how_the_camera_moves() {
+    let mut window = open(SIZE);
+    let drag = |window: &mut Window| {
+        let centre = window.get_by_label("Picture").rect().center();
+        window.drag_at(centre);
+        window.step();
+        window.hover_at(centre + egui::vec2(40.0, 10.0));
+        window.run_steps(2);
+        window.drop_at(centre + egui::vec2(40.0, 10.0));
+        window.run_steps(2);
+    };
+    drag(&mut window);
+    assert!(notice(&window).starts_with("A drag with the right button turns the camera"), "{}", notice(&window));
+    press(&mut window, "Close notice");
+    drag(&mut window);
+    assert_eq!(notice(&window), "", "it is said once");
+    assert!(!session(&window).is_camera_moved());
+}
+
+#[test]
 fn recorded_run_can_be_inspected_and_a_drag_inspects_nothing() {
     let language = Language::English;
     let directory = TempDir::new().expect("a temporary directory");

@@ -70,6 +70,28 @@ fn question_of_a_step_is_answered_before_the_run_goes_on() {
 }
 
 #[test]
+fn lesson_leaves_camera_and_table_as_they_were() {
+    let mut window = open(SIZE);
+    key(&mut window, Key::C);
+    key(&mut window, Key::N);
+    press(&mut window, "For a projector");
+    assert!(window.state().open_stack().contains(&anel::gui::Closable::Projector));
+    press(&mut window, "For a projector");
+    press(&mut window, "Why not bands?");
+    until(&mut window, "the lesson", |window| step(window).is_some());
+    window.run_steps(3);
+    assert_eq!(notice(&window), "", "nothing is said of the camera");
+    key(&mut window, Key::T);
+    // What the next window restores is what was there before the lesson.
+    let mut storage = Storage::default();
+    eframe::App::save(window.state_mut(), &mut storage);
+    assert!(storage.0.is_some_and(|text| text.contains("timeline:false")));
+    press(&mut window, "Leave the lesson");
+    window.run_steps(3);
+    window.get_by_label("Machine 1");
+}
+
+#[test]
 fn own_lesson_is_opened_and_its_error_is_shown() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("mine.ron");

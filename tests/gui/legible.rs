@@ -146,12 +146,12 @@ impl Walk {
         let is_english = session(&self.window).language() == Language::English;
         let (kinds, [large, cancel, save, path]) = if is_english {
             (
-                ["owners", "ring", "timeline", "animation", "run", "table", "any size"],
+                ["owners", "ring", "timeline", "animation (GIF)", "run", "table", "any size"],
                 ["any size", "Cancel", "Save", "Path of the file"],
             )
         } else {
             (
-                ["donas", "anel", "linha do tempo", "filme", "execução", "tabela", "ampliada"],
+                ["donas", "anel", "linha do tempo", "filme (GIF)", "execução", "tabela", "ampliada"],
                 ["ampliada", "Cancelar", "Salvar", "Caminho do arquivo"],
             )
         };

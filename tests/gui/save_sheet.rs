@@ -56,6 +56,45 @@ fn retype_path(window: &mut Window, path: &Path) {
 }
 
 #[test]
+fn path_and_facts_follow_the_size_at_once() {
+    let mut window = open(SIZE);
+    until(&mut window, "traced atoms", |window| done(window) > 20);
+    press(&mut window, "Save…");
+    choose_kind(&mut window, "any size");
+    press(&mut window, "1080p");
+    window.get_by_label_contains("The shape differs from the picture's");
+    assert_eq!(file_name(&typed(&window)), "ten-objects-1920x1080.png");
+    // Every key counts, without Enter.
+    window.get_by_role_and_label(Role::SpinButton, "Pixels across").click();
+    window.run_steps(3);
+    window.event(egui::Event::Text("144".into()));
+    window.run_steps(3);
+    window.get_by_label_contains("PNG · 144 × 1080 pixels");
+    assert_eq!(file_name(&typed(&window)), "ten-objects-144x1080.png");
+    choose_kind(&mut window, "animation (GIF)");
+    window.run_steps(3);
+    window.get_by_label_contains("GIF · 948 × 436 pixels");
+    assert!(file_name(&typed(&window)).starts_with("ten-objects-948x436-ring-8"), "{}", file_name(&typed(&window)));
+}
+
+#[test]
+fn settings_and_sheet_leave_room_for_the_run() {
+    let mut window = open(SIZE);
+    press(&mut window, "Set up");
+    press(&mut window, "Save…");
+    assert!(window.query_by_label("Number of machines").is_none(), "Save closes Set up");
+    window.get_by_label("Save a file");
+    press(&mut window, "Set up");
+    assert!(window.query_by_label("Save a file").is_none(), "Set up closes Save");
+    window.get_by_label("Number of machines");
+    // A wide window that is not high has room for both.
+    resize(&mut window, [1700.0, 800.0]);
+    press(&mut window, "Save…");
+    window.get_by_label("Save a file");
+    window.get_by_label("Number of machines");
+}
+
+#[test]
 fn pictures_wait_for_each_other_and_can_be_cancelled_one_by_one() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let mut window = open(SIZE);
@@ -67,7 +106,7 @@ fn pictures_wait_for_each_other_and_can_be_cancelled_one_by_one() {
         retype_path(window, &path(name));
         press(window, "Save");
     };
-    choose_kind(&mut window, "animation");
+    choose_kind(&mut window, "animation (GIF)");
     type_number(&mut window, "Seconds of the animation", "1");
     type_number(&mut window, "Width of the picture in the animation", "100");
     choose_kind(&mut window, "any size");
@@ -75,7 +114,7 @@ fn pictures_wait_for_each_other_and_can_be_cancelled_one_by_one() {
     type_number(&mut window, "Samples a pixel", "16");
     save(&mut window, "any size", "huge.png");
     save(&mut window, "any size", "other.png");
-    save(&mut window, "animation", "run.gif");
+    save(&mut window, "animation (GIF)", "run.gif");
     // What is quickly written does not wait.
     save(&mut window, "timeline", "timeline.svg");
     until(&mut window, "notice", |window| notice(window).contains("timeline.svg"));
@@ -98,7 +137,7 @@ fn pictures_wait_for_each_other_and_can_be_cancelled_one_by_one() {
     eframe::App::save(window.state_mut(), &mut storage);
     let mut again = launch_with(SIZE, &storage, anel::gui::Launch::default());
     press(&mut again, "Save…");
-    choose_kind(&mut again, "animation");
+    choose_kind(&mut again, "animation (GIF)");
     let value = |name: &str| again.get_by_role_and_label(Role::SpinButton, name).value();
     assert_eq!(value("Seconds of the animation").as_deref(), Some("1 s"));
     assert_eq!(value("Width of the picture in the animation").as_deref(), Some("100 px"));
@@ -116,7 +155,7 @@ fn preview_shows_what_will_be_saved() {
         ("any size", "1280 × 960"),
         ("ring", "900 × "),
         ("timeline", "1200 × "),
-        ("animation", "948 × 436"),
+        ("animation (GIF)", "948 × 436"),
         ("run", "All records of the run, to play it again"),
     ] {
         choose_kind(&mut window, kind);

@@ -55,7 +55,7 @@ fn run_is_saved_and_opened_with_keys() {
     until(&mut window, "notice", |window| notice(window).contains("run.anel"));
     escape(&mut window);
     key(&mut window, Key::O);
-    press(&mut window, "Open the last saved run");
+    press(&mut window, "Open the last saved run: run.anel");
     until(&mut window, "the run", |window| session(window).is_recorded());
     assert_eq!(session(&window).header().scene, "ten-objects");
 }
@@ -164,7 +164,7 @@ fn extension_of_a_typed_name_follows_the_kind() {
     key(&mut window, Key::S);
     type_path(&mut window, FIELD, "/tmp/mine.png".as_ref());
     for (kind, name) in
-        [("timeline", "mine.svg"), ("animation", "mine.gif"), ("table", "mine.csv"), ("render", "mine.png")]
+        [("timeline", "mine.svg"), ("animation (GIF)", "mine.gif"), ("table", "mine.csv"), ("render", "mine.png")]
     {
         choose_kind(&mut window, kind);
         assert_eq!(file_name(&typed(&window)), name);

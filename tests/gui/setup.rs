@@ -5,7 +5,8 @@ use std::time::Duration;
 use anel::balance::{Party, Strategy};
 use anel::gui::{Pace, Settings};
 use anel::record::RecordKind;
-use egui::Key;
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
 use super::driving::*;
@@ -106,6 +107,37 @@ fn number_of_machines_restarts_the_run_and_can_be_undone() {
     ctrl(&mut window, Key::Z);
     assert_eq!(session(&window).header().speeds.len(), 8);
     until(&mut window, "atoms", |window| done(window) > 10);
+}
+
+#[test]
+fn tab_and_wheel_apply_a_number() {
+    let mut window = open_setup();
+    until(&mut window, "many atoms", |window| done(window) > 100);
+    let machines = |window: &Window| session(window).header().speeds.len();
+    window.get_by_role_and_label(Role::SpinButton, "Number of machines").click();
+    window.run_steps(3);
+    // All keys of a frame that took long.
+    let tab =
+        Event::Key { key: Key::Tab, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE };
+    window.input_mut().events.extend([Event::Text("1".into()), Event::Text("6".into()), tab]);
+    window.run_steps(3);
+    assert_eq!(machines(&window), 16);
+    assert_eq!(notice(&window), "Restarted with: 16 machines");
+    // The wheel over a field and over its slider; the run restarts once, after the last notch.
+    let begun = session(&window).runs_begun();
+    for (name, lines, count) in [("Number of machines", 2.0, 18), ("Machines slider", -3.0, 15)] {
+        window.hover_at(window.get_by_label(name).rect().center());
+        window.run_steps(2);
+        wheel(&mut window, lines);
+        until(&mut window, name, |window| machines(window) == count);
+    }
+    assert_eq!(session(&window).runs_begun(), begun + 2);
+    window.hover_at(window.get_by_label("Latency slider").rect().center());
+    window.run_steps(2);
+    wheel(&mut window, 9.0);
+    until(&mut window, "a round latency", |window| session(window).settings().latency == 200.0);
+    drag(&mut window, "Latency slider", 0.35);
+    until(&mut window, "a round latency", |window| session(window).settings().latency == 250.0);
 }
 
 #[test]

@@ -46,6 +46,7 @@ impl App {
                 session.restart();
                 session.end_notices();
             }
+            UserCommand::RestartRecovering => session.restart_recovering(),
             UserCommand::Step(by, forward) => session.step(by, forward),
             UserCommand::Rate(faster) => session.stage_mut().change_rate(if faster { 1 } else { -1 }),
             UserCommand::SetRate(index) => session.stage_mut().set_rate(index),
@@ -73,8 +74,14 @@ impl App {
                     "A imagem foi copiada para a área de transferência"
                 ));
             }
-            UserCommand::Save => self.save_sheet.toggle(session),
-            UserCommand::SaveRun => self.save_sheet.open_for_run(session),
+            UserCommand::Save => {
+                self.save_sheet.toggle(session);
+                self.make_room_for_run(ctx, true);
+            }
+            UserCommand::SaveRun => {
+                self.save_sheet.open_for_run(session);
+                self.make_room_for_run(ctx, true);
+            }
             UserCommand::Scenes => {
                 self.accuracy.close(session);
                 self.compare.close(session);
@@ -100,7 +107,10 @@ impl App {
                 self.compare.toggle(session);
             }
             UserCommand::Reload => session.reload(),
-            UserCommand::Setup => self.setup.open = !self.setup.open,
+            UserCommand::Setup => {
+                self.setup.open = !self.setup.open;
+                self.make_room_for_run(ctx, false);
+            }
             UserCommand::Undo => session.undo(),
             UserCommand::Redo => session.redo(),
             UserCommand::Select(node) if usize::from(node) < session.header().speeds.len() => {

@@ -9,23 +9,23 @@ mod quitting;
 mod repaint_schedule;
 mod saving;
 mod stored_path;
+mod stored_state;
 
 use std::time::Duration;
 
 use eframe::Storage;
 use egui::{Align, Context, Frame, Layout, Margin, Panel, Ui, UiBuilder};
-use serde::{Deserialize, Serialize};
 
-use super::input::keys;
+use super::input::keys::{self, UserCommand};
 use super::input::selection::Selection;
-use super::input::zoom;
+use super::input::{tab_order, zoom};
 use super::pages::accuracy::Accuracy;
 use super::pages::compare::Compare;
 use super::pages::gallery::Gallery;
 use super::pages::help::{self, HelpTab};
 use super::pages::learn::Learn;
 use super::panels::picture::PicturePanel;
-use super::panels::save_sheet::{FilmOptions, SaveSheet};
+use super::panels::save_sheet::SaveSheet;
 use super::panels::setup::{self, SetupPanel};
 use super::panels::time::{self, TimePanel};
 use super::panels::timeline::{self, TimelinePanel};
@@ -36,7 +36,7 @@ use super::widgets::number::RefusedNumber;
 use super::widgets::test_positions;
 use super::widgets::theme::{self, GRID, Look};
 use crate::balance::NodeId;
-use crate::language::{Language, say};
+use crate::language::say;
 use crate::time::Time;
 use crate::view::{Details, Highlight, Subject};
 pub use launch::Launch;
@@ -44,6 +44,7 @@ use main_area_layout::{Split, split_main_area};
 pub use open_stack::Closable;
 use open_stack::OpenStack;
 use quitting::Quitting;
+use stored_state::StoredState;
 
 /// The content of the window.
 pub struct App {
@@ -68,33 +69,14 @@ pub struct App {
     /// Details of the selected subject.
     selected: Option<Details>,
     highlight: Highlight,
+    /// While a lesson is open: whether the timeline was shown before it.
+    timeline_before_lesson: Option<bool>,
     /// `Session::runs_begun` at the last frame.
     runs_begun: usize,
     /// Presentation mode: large text, strong colours, no controls.
     projector: bool,
     quitting: Quitting,
     open_stack: OpenStack,
-}
-
-/// The state that the next window restores, beside egui's own.
-#[derive(Default, Serialize, Deserialize)]
-#[serde(default)]
-struct StoredState {
-    settings: Settings,
-    scene: Option<String>,
-    recent: Vec<String>,
-    blend: Option<f64>,
-    #[serde(rename = "setup")]
-    is_setup_open: bool,
-    #[serde(rename = "timeline")]
-    shows_timeline: bool,
-    /// Height of the table or the timeline, as a share of the window's.
-    split: Option<f32>,
-    language: Option<Language>,
-    projector: bool,
-    film: FilmOptions,
-    /// Whether a changed scene is reloaded without a question.
-    always_reload: bool,
 }
 
 /// Key of [`StoredState`] in eframe's storage.
@@ -109,6 +91,7 @@ impl App {
         theme::install(ctx);
         test_positions::install(ctx);
         zoom::install(ctx);
+        tab_order::install(ctx);
         Look::set_strong(ctx, stored.projector);
         let settings = if stored.settings.check(language).is_ok() { stored.settings } else { Settings::default() };
         let mut session = Session::new(settings, launch.log, ctx, theme::rgb(Look::of(ctx).ground));
@@ -140,6 +123,7 @@ impl App {
             hovered: None,
             selected: None,
             highlight: Highlight::default(),
+            timeline_before_lesson: None,
             runs_begun: 0,
             projector: stored.projector,
             quitting: Quitting::default(),
@@ -226,7 +210,9 @@ impl App {
                 if self.gallery.is_open() {
                     self.gallery.show(ui, &mut self.session);
                 } else if self.learn.is_open() {
-                    self.learn.show(ui, &mut self.session);
+                    if self.learn.show(ui, &mut self.session, self.projector) {
+                        self.handle_command(UserCommand::Projector, ui.ctx());
+                    }
                 } else if self.compare.is_open() {
                     self.compare.show(ui, &mut self.session);
                 } else {
@@ -249,14 +235,18 @@ impl App {
             self.machines(ui, ui.available_height() - usual - time::HEIGHT_PT, sheet);
         }
         let words = Panel::bottom("words").frame(panel(8, 10)).exact_size(height + 18.0);
-        words.show(ui, |ui| {
+        let command = words.show(ui, |ui| {
             if lesson.is_some() {
                 self.learn.show_step(ui, &mut self.session);
-            } else {
-                let place = narration::show(ui, &self.session, self.selected.as_ref(), notice);
-                self.notices(ui, place);
+                return None;
             }
+            let (place, command) = narration::show(ui, &self.session, self.selected.as_ref(), notice);
+            self.notices(ui, place);
+            command
         });
+        if let Some(command) = command.inner {
+            self.handle_command(command, ui.ctx());
+        }
         if lesson.is_some() {
             self.notice_panel(ui);
         }
@@ -316,6 +306,16 @@ impl App {
             }
         });
         self.split.drag(ui, below.response.rect, self.session.language());
+    }
+
+    /// Leaves the camera alone in a lesson, whose runs are recorded, and brings the table of machines back after it.
+    fn begin_or_end_lesson(&mut self) {
+        if !self.learn.is_on() {
+            self.shows_timeline = self.timeline_before_lesson.take().unwrap_or(self.shows_timeline);
+        } else if self.timeline_before_lesson.is_none() {
+            self.timeline_before_lesson = Some(self.shows_timeline);
+            self.picture.moves_camera = false;
+        }
     }
 
     fn timeline(&mut self, ui: &mut Ui) {
@@ -392,6 +392,7 @@ impl eframe::App for App {
             }
         }
         self.close_when_written(ctx);
+        self.begin_or_end_lesson();
         if let Some(selected) = self.learn.tick(&mut self.session) {
             self.selection.selected = selected;
             self.shows_timeline = self.learn.wants_timeline().unwrap_or(self.shows_timeline);
@@ -426,24 +427,7 @@ impl eframe::App for App {
     }
 
     fn save(&mut self, storage: &mut dyn Storage) {
-        let scene = self.session.opened().and_then(|opened| match &opened.path {
-            Some(path) => std::path::absolute(path).ok().map(|path| stored_path::write(&path)),
-            None => crate::scene::built_in(&opened.name).map(|_| opened.name.clone()),
-        });
-        let stored = StoredState {
-            settings: self.session.settings().clone(),
-            scene,
-            recent: self.session.recent().iter().map(|path| stored_path::write(path)).collect(),
-            blend: Some(self.picture.blend),
-            is_setup_open: self.setup.open,
-            shows_timeline: self.shows_timeline,
-            split: self.split.share,
-            language: Some(self.session.language()),
-            projector: self.projector,
-            film: self.save_sheet.film(),
-            always_reload: self.session.always_reloads(),
-        };
-        eframe::set_value(storage, STORAGE_KEY, &stored);
+        eframe::set_value(storage, STORAGE_KEY, &self.stored());
     }
 
     #[cfg(feature = "glow")]

@@ -19,6 +19,19 @@ impl App {
         !self.shows_page() && area.width() - others >= MIN_RUN_WIDTH_PT
     }
 
+    /// Closes the settings or the sheet, the one that was open before, where both have no room beside the run.
+    pub(super) fn make_room_for_run(&mut self, ctx: &Context, keeps_sheet: bool) {
+        let both = self.setup.open && self.save_sheet.is_open() && !self.shows_page();
+        if !both || self.has_room_for_sheet(ctx.content_rect()) {
+            return;
+        }
+        if keeps_sheet {
+            self.setup.open = false;
+        } else {
+            self.save_sheet.close();
+        }
+    }
+
     /// Shows the sheet at the right of the other panels. Returns its width.
     pub(super) fn sheet_beside(&mut self, ui: &mut Ui) -> f32 {
         let width = save_sheet::width(ui.available_width());

@@ -13,6 +13,8 @@ pub enum UserCommand {
     Pause,
     /// Starts a new run.
     Restart,
+    /// Starts a new run with the scheduler that would have recovered from the failure for which this one hangs.
+    RestartRecovering,
     /// Steps forward (`true`) or back by one unit.
     Step(StepUnit, bool),
     /// Raises (`true`) or lowers the playback rate.
@@ -175,7 +177,7 @@ pub const KEY_TABLE: &[KeyRow] = &[
     },
     KeyRow {
         keys_text: same("F"),
-        effect: ("Find the first offer, the biggest transfer …", "Achar a primeira oferta, a maior transferência …"),
+        effect: ("Find the first offer, the biggest transfer …", "Achar a primeira oferta, o maior envio …"),
         keys: &[(NONE, Key::F, UserCommand::Find), (CTRL, Key::F, UserCommand::Find)],
     },
     KeyRow {

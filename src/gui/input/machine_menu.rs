@@ -4,7 +4,7 @@ use egui::{Align2, Popup, Rect, Response, Role, Sense, Stroke, Ui, WidgetInfo, p
 
 use super::selection::Selection;
 use crate::balance::{Condition, NodeId};
-use crate::gui::session::Session;
+use crate::gui::session::{Session, only_live_words};
 use crate::gui::widgets::explained::explained;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{action_menu, popup_frame};
@@ -87,7 +87,9 @@ fn key(condition: Condition, present: Condition) -> &'static str {
 fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
     let language = session.language();
     let name = node_name(node);
-    let hint = if session.mends_losses() {
+    let hint = if !session.can_fail() {
+        only_live_words(language)
+    } else if session.mends_losses() {
         word!(
             language,
             "This ring detects the failure and recovers the atoms",
@@ -105,7 +107,7 @@ fn items(ui: &mut Ui, session: &mut Session, node: NodeId, look: Look) {
     let conditions =
         conditions.into_iter().map(|(condition, text)| (condition, text.to_owned(), key(condition, present)));
     let title = say!(language, "Machine {name}", "Máquina {name}");
-    if let Some(condition) = action_menu(ui, &title, conditions, (session.can_fail(), hint), look, language) {
+    if let Some(condition) = action_menu(ui, &title, conditions, (session.can_fail(), hint), look) {
         session.set_condition(node, condition);
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{Popup, Response, Ui};
 
 use crate::balance::Party;
-use crate::gui::session::Session;
+use crate::gui::session::{Session, only_live_words};
 use crate::gui::widgets::theme::Look;
 use crate::gui::widgets::{action_menu, popup_frame};
 use crate::language::{Language, say, word};
@@ -42,7 +42,8 @@ fn items(ui: &mut Ui, session: &mut Session, MessageInMenu { text, parties }: &M
         "All messages from this sender to this receiver wait and then arrive in order",
         "Todas as mensagens deste remetente a este destino esperam e depois chegam em ordem"
     );
-    if let Some(seconds) = action_menu(ui, text, delays, (session.can_fail(), hint), look, language) {
+    let hint = if session.can_fail() { hint } else { only_live_words(language) };
+    if let Some(seconds) = action_menu(ui, text, delays, (session.can_fail(), hint), look) {
         session.delay(*parties, Duration::from_secs(seconds));
     }
 }

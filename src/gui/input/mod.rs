@@ -6,4 +6,5 @@ pub mod message_menu;
 pub mod rate_menu;
 pub mod selection;
 pub mod speed_slider;
+pub mod tab_order;
 pub mod zoom;

@@ -1,12 +1,12 @@
 //! Slider of a machine's speed, which the wheel and the arrow keys move by steps.
 
-use egui::{Event, Key, MouseWheelUnit, Response, Ui};
+use egui::{Key, Response, Ui};
 
 use crate::balance::NodeId;
 use crate::gui::session::Session;
 use crate::gui::settings::speed_steps::next_speed;
 use crate::gui::settings::undo::Gesture;
-use crate::gui::widgets::slider::{Scale, slider};
+use crate::gui::widgets::slider::{Scale, slider, wheel_steps};
 use crate::gui::widgets::{hint_above, theme};
 use crate::language::{Language, say, word};
 use crate::view::{fraction, node_name};
@@ -36,20 +36,7 @@ pub fn show(ui: &mut Ui, node: NodeId, width: f32, session: &mut Session, takes_
 fn steps(ui: &Ui, slider: &Response, takes_wheel: bool) -> i32 {
     let keys = |up, down| ui.input(|input| input.num_presses(up) as i32 - input.num_presses(down) as i32);
     let by_keys = if slider.has_focus() { keys(Key::ArrowRight, Key::ArrowLeft) } else { 0 };
-    if !takes_wheel || !slider.hovered() {
-        return by_keys;
-    }
-    by_keys + ui.input(|input| input.events.iter().map(notches).sum::<i32>())
-}
-
-/// Returns the notches of a wheel's event.
-fn notches(event: &Event) -> i32 {
-    match event {
-        Event::MouseWheel { unit: MouseWheelUnit::Line, delta, modifiers, .. } if !modifiers.any() => {
-            delta.y.round() as i32
-        }
-        _ => 0,
-    }
+    by_keys + if takes_wheel { wheel_steps(ui, slider) } else { 0 }
 }
 
 /// Returns what the slider sets, or why it cannot be moved.

@@ -9,7 +9,7 @@ use crate::cancel::CancelOnDrop;
 use crate::gui::session::Thumbnail;
 use crate::gui::session::{Purpose, Session};
 use crate::gui::widgets::icons::Icon;
-use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, path_field};
+use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, open_field};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button};
 use crate::language::{say, word};
@@ -132,7 +132,7 @@ impl Gallery {
                 "caminho de uma cena ou lição (.ron), ou execução (.anel)"
             );
             let name = word!(language, "Path of the file to open", "Caminho do arquivo a abrir");
-            let field = path_field(ui, (self.path.text_mut(), hint), width, name, &mut self.wants_focus);
+            let field = open_field(ui, (self.path.text_mut(), hint), width, name, &mut self.wants_focus);
             if field.changed {
                 self.trouble = None;
             }
@@ -140,6 +140,8 @@ impl Gallery {
                 match self.path.resolve(std::env::home_dir(), language) {
                     Ok(path) => {
                         self.close();
+                        // Next time a full path that is typed behind its directory is told from it.
+                        self.path.set(path.clone());
                         session.open(path);
                     }
                     Err(why) => self.trouble = Some(why),
@@ -163,12 +165,13 @@ impl Gallery {
             );
             ui.label(RichText::new(text).font(theme::regular(theme::SMALL)).color(look.quiet));
             let last = session.recent().iter().find(|path| has_ending(path, "anel") && path.is_file()).cloned();
-            let name = word!(language, "Open the last saved run", "Abrir a última execução salva");
-            if let Some(last) = last
-                && button(ui, None, name, true, Emphasis::Quiet).on_hover_text(last.to_string_lossy()).clicked()
-            {
-                self.close();
-                session.open(last);
+            if let Some(last) = last {
+                let file = last.file_name().unwrap_or(last.as_os_str()).to_string_lossy();
+                let name = say!(language, "Open the last saved run: {file}", "Abrir a última execução salva: {file}");
+                if button(ui, None, &name, true, Emphasis::Quiet).on_hover_text(last.to_string_lossy()).clicked() {
+                    self.close();
+                    session.open(last);
+                }
             }
         });
     }

@@ -3,10 +3,12 @@
 use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Align2, Color32, CornerRadius, FontId, Label, Rect, RichText, Sense, Ui, UiBuilder, pos2, vec2};
 
+use crate::balance::{Scheduler, Strategy};
+use crate::gui::input::keys::UserCommand;
 use crate::gui::session::{Phase, Session, Stage};
-use crate::gui::widgets;
 use crate::gui::widgets::explained::{explain_at, explained};
 use crate::gui::widgets::theme::{self, GRID, Look};
+use crate::gui::widgets::{self, Emphasis, button, hint_above};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::runlog::Driver;
@@ -16,7 +18,10 @@ use crate::view::{
     record_words, result_words, summary_figures, time_words, unfinished_words, work_split_words,
 };
 
+/// Height of the sentence, in points.
 const SENTENCE_HEIGHT_PT: f32 = 3.25 * GRID;
+/// Height of a warning with its button, in points.
+const WARNING_HEIGHT_PT: f32 = 4.25 * GRID;
 const EVENT_HEIGHT_PT: f32 = 2.25 * GRID;
 const BAR_HEIGHT_PT: f32 = 3.0 * GRID;
 
@@ -28,8 +33,9 @@ pub fn height(ui: &Ui, notice: f32) -> f32 {
 }
 
 /// Shows the details of the selected subject, else the result of a finished run, else sentences; and below the bar.
-/// Returns the place of a notice of this height, between the sentences and the bar.
-pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f32) -> Rect {
+/// Returns the place of a notice of this height, between the sentences and the bar, and the command of the pressed
+/// button.
+pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f32) -> (Rect, Option<UserCommand>) {
     let language = session.language();
     let look = Look::of(ui.ctx());
     let (whole, _) = ui.allocate_exact_size(vec2(ui.available_width(), height(ui, notice)), Sense::hover());
@@ -38,20 +44,28 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f
     let upper = &mut ui.new_child(UiBuilder::new().max_rect(above));
     let lines = ((above.height() - SENTENCE_HEIGHT_PT).max(0.0) / EVENT_HEIGHT_PT) as usize;
     upper.spacing_mut().item_spacing.y = 0.0;
-    upper.shrink_clip_rect(above.with_max_y(above.bottom() + if notice > 0.0 { 0.0 } else { GRID }));
+    upper.shrink_clip_rect(above.with_max_y(above.bottom() + if notice > 0.0 { GRID / 2.0 } else { GRID }));
+    let mut pressed = None;
     match details {
         Some(details) => {
-            // Where there is room for both, the sentence of the moment stays.
-            if lines > 0 {
-                sentence(upper, session, look);
+            // Where there is room for both, the result or the sentence of the moment stays.
+            if lines > 0 && session.stage().result().is_some() {
+                let (result_area, _) =
+                    upper.allocate_exact_size(vec2(above.width(), SENTENCE_HEIGHT_PT), Sense::hover());
+                // A child of its own leaves the room below to the details.
+                result(&mut upper.new_child(UiBuilder::new().max_rect(result_area)), session, look);
+            } else if lines > 0 {
+                pressed = sentence(upper, session, look);
             }
             selected(upper, session, details, look);
         }
         None if session.stage().result().is_some() => result(upper, session, look),
         None => {
-            sentence(upper, session, look);
+            pressed = sentence(upper, session, look);
             let stage = session.stage();
             let (narrator, now) = (stage.narrator(), session.now());
+            // A warning takes the room of one.
+            let lines = lines.saturating_sub(usize::from(session.recovering_scheduler().is_some()));
             let told = usize::from(narrator.event_time(stage.state(), now).is_some());
             let more = narrator.events_so_far().saturating_sub(told + lines);
             let others = narrator.other_events(stage.state(), now).rev().take(lines);
@@ -59,7 +73,7 @@ pub fn show(ui: &mut Ui, session: &Session, details: Option<&Details>, notice: f
         }
     }
     bar(ui, below, session, look);
-    place.with_max_y(place.bottom() - GRID)
+    (place.with_max_y(place.bottom() - GRID), pressed)
 }
 
 /// Returns how many earlier events have room below the sentence.
@@ -104,8 +118,9 @@ fn time_width(ui: &Ui, stage: &Stage, language: Language) -> f32 {
     width.ceil().max(5.0 * GRID)
 }
 
-/// Shows the sentence of the moment, after the time of its event.
-fn sentence(ui: &mut Ui, session: &Session, look: Look) {
+/// Shows the sentence of the moment, after the time of its event. If the run hangs for ever, it is a warning with a
+/// button. Returns the command of the pressed button.
+fn sentence(ui: &mut Ui, session: &Session, look: Look) -> Option<UserCommand> {
     let language = session.language();
     let stage = session.stage();
     let sentence = match &stage.phase {
@@ -140,18 +155,39 @@ fn sentence(ui: &mut Ui, session: &Session, look: Look) {
         Some(record) => Some(record.at),
         None => stage.narrator().event_time(stage.state(), session.now()),
     };
-    let (width, height) = (time_width(ui, stage, language), SENTENCE_HEIGHT_PT);
+    let recovering = session.recovering_scheduler();
+    let width = time_width(ui, stage, language);
+    let height = if recovering.is_some() { WARNING_HEIGHT_PT } else { SENTENCE_HEIGHT_PT };
     let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
     let when =
         event.map_or(word!(language, "now", "agora").into(), |at| time_words(at, stage.playback_scale(), language));
     let at = pos2(row.left() + width, row.top() + 0.5 * SENTENCE_HEIGHT_PT);
     ui.painter().text(at, Align2::RIGHT_CENTER, when, theme::regular(theme::SMALL), look.quiet);
-    let room = row.with_min_x(row.left() + width + GRID);
+    let mut room = row.with_min_x(row.left() + width + GRID);
+    let is_pressed = recovering.as_ref().is_some_and(|scheduler| {
+        let name = if *scheduler == Scheduler::Protocol(Strategy::Adaptive) {
+            word!(language, "Again with the adaptive ring", "De novo com o anel adaptativo")
+        } else {
+            word!(language, "Again with the farm with leases", "De novo com a dinâmica com prazos")
+        };
+        let at = room.with_min_x(room.right() - widgets::text_width(ui, name) - 3.0 * GRID);
+        room.max.x = at.left() - GRID;
+        let hint = word!(
+            language,
+            "Start the run again with the strategy that recovers from a failure",
+            "Iniciar a execução de novo com a estratégia que se recupera de uma falha"
+        );
+        let at = Rect::from_min_size(at.min, vec2(at.width(), 4.0 * GRID));
+        let shown = |ui: &mut Ui| hint_above(button(ui, None, name, true, Emphasis::Primary), hint).clicked();
+        ui.scope_builder(UiBuilder::new().max_rect(at), shown).inner
+    });
+    let colour = if recovering.is_some() { look.trouble } else { look.text };
     // The largest font in which the sentence has one line, else a small one.
     let text_width = |size: f32| ui.painter().layout_no_wrap(sentence.clone(), theme::strong(size), look.text).size().x;
     let size = [20.0, 18.0, theme::BODY].into_iter().find(|&size| text_width(size) <= room.width());
-    let text = RichText::new(&sentence).font(theme::strong(size.unwrap_or(theme::SMALL))).color(look.text);
+    let text = RichText::new(&sentence).font(theme::strong(size.unwrap_or(theme::SMALL))).color(colour);
     ui.scope_builder(UiBuilder::new().max_rect(room), |ui| ui.add(Label::new(text).wrap()));
+    is_pressed.then_some(UserCommand::RestartRecovering)
 }
 
 /// Shows events with their times, one line each, and after the last one how many `more` there are.

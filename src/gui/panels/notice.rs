@@ -100,14 +100,19 @@ fn message<T>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> T) -> T {
 
 /// Returns the width of a notice's text beside its buttons.
 fn text_width(width: f32, notice: &Notice, waiting: usize) -> f32 {
-    let buttons = if notice.kind == NoticeKind::Changed { 27.0 } else { 5.0 };
+    let buttons = match notice.kind {
+        NoticeKind::Changed => 27.0,
+        NoticeKind::Unopened => 17.0,
+        NoticeKind::Note | NoticeKind::Trouble => 5.0,
+    };
     let others = if waiting > 0 { 12.0 } else { 0.0 };
     width.min(MAX_WIDTH_PT) - (buttons + others) * GRID - 2.0 * MARGIN_PT
 }
 
 fn notice_row(ui: &mut Ui, notice: &Notice, waiting: usize, width: f32, language: Language) -> Option<NoticeAction> {
     let look = Look::of(ui.ctx());
-    let colour = if notice.kind == NoticeKind::Trouble { look.trouble } else { look.text };
+    let is_error = matches!(notice.kind, NoticeKind::Trouble | NoticeKind::Unopened);
+    let colour = if is_error { look.trouble } else { look.text };
     let text = RichText::new(&notice.text).font(theme::regular(theme::BODY)).color(colour);
     ui.scope(|ui| {
         ui.set_max_width(width);
@@ -118,7 +123,11 @@ fn notice_row(ui: &mut Ui, notice: &Notice, waiting: usize, width: f32, language
     }
     let name = word!(language, "Reload", "Recarregar");
     let is_change = notice.kind == NoticeKind::Changed;
-    let reload = is_change && button(ui, None, name, true, Emphasis::Primary).clicked();
+    let (can_reload, hint) = (
+        is_change || notice.kind == NoticeKind::Unopened,
+        word!(language, "Read the file again (F5)", "Ler o arquivo de novo (F5)"),
+    );
+    let reload = can_reload && button(ui, None, name, true, Emphasis::Primary).on_hover_text(hint).clicked();
     let name = word!(language, "Always", "Sempre");
     let hint = word!(
         language,

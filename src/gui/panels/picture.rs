@@ -36,6 +36,8 @@ pub struct PicturePanel {
     pub outlines: bool,
     /// Whether a drag moves the camera.
     pub moves_camera: bool,
+    /// Whether a drag that moves nothing has been answered by how to move the camera.
+    has_told_of_camera: bool,
     /// Preview of the moving camera, and its texture.
     preview: Option<(Arc<CameraPreview>, TextureHandle)>,
 }
@@ -49,6 +51,7 @@ impl Default for PicturePanel {
             blend: 70.0,
             outlines: false,
             moves_camera: false,
+            has_told_of_camera: false,
             preview: None,
         }
     }
@@ -101,9 +104,7 @@ impl PicturePanel {
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             painter.image(texture.id(), frame, whole, Color32::WHITE);
         }
-        if self.preview.is_none() && self.view.shows_all() && !self.moves_camera {
-            picture_captions::paint(&painter, picture, scale, session);
-        }
+        self.tell_of_camera(&response, session);
         if self.moves_camera || session.is_camera_moved() {
             self.camera_strip(ui, frame, session, look);
         }
@@ -124,6 +125,10 @@ impl PicturePanel {
             outline_all(&painter, (picture, scale), frame, session);
         }
         outline(&painter, (picture, scale), session, &highlight.atoms, 1.25);
+        // Over the outlines, which would strike through their texts.
+        if self.preview.is_none() && self.view.shows_all() && !self.moves_camera {
+            picture_captions::paint(&painter, picture, scale, session);
+        }
         if let Some([x, y]) = session.inspected_pixel() {
             // The selected atom follows the inspected pixel.
             if let Some(Subject::Atom(atom)) = &mut selection.selected {
@@ -161,6 +166,19 @@ impl PicturePanel {
     /// Whether only a part of the picture is visible.
     pub fn is_zoomed(&self) -> bool {
         !self.view.shows_all()
+    }
+
+    /// Says once how to move the camera, when a drag of the whole picture with the left button moves nothing.
+    fn tell_of_camera(&mut self, response: &Response, session: &mut Session) {
+        let moves_nothing = !self.moves_camera && self.view.shows_all() && !session.is_recorded();
+        if moves_nothing && response.drag_started_by(PointerButton::Primary) && !self.has_told_of_camera {
+            self.has_told_of_camera = true;
+            session.note(word!(
+                session.language(),
+                "A drag with the right button turns the camera; C lets the left one do it too",
+                "Arrastar com o botão direito gira a câmera; C faz isso também com o esquerdo"
+            ));
+        }
     }
 
     /// Moves the camera: a drag orbits round the point it looks at, Shift or the middle button pans, the wheel dollies.

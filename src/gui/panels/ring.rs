@@ -1,6 +1,6 @@
 //! The ring of machines, with its tooltips and menus.
 
-use egui::{Align2, Rect, Sense, Ui, vec2};
+use egui::{Align2, Rect, RichText, Sense, Ui, vec2};
 
 use crate::balance::NodeId;
 use crate::gui::input::machine_menu;
@@ -93,13 +93,24 @@ pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highl
         let font = theme::strong(theme::LARGE);
         painter.text(rect.right_top(), Align2::RIGHT_TOP, time, font, look.text);
     }
+    let can_fail = session.can_fail() && message.is_none() && matches!(spot, Some(RingSpot::Node(_)));
     match ui.data(|data| data.get_temp::<Option<RingMenu>>(response.id)).flatten() {
         Some(RingMenu::Node(node)) => machine_menu::on(&response, session, selection, node, look),
         Some(RingMenu::Message(message)) => message_menu::on(&response, session, &message, look),
         None => {}
     }
     if let Some((title, lines)) = tooltip {
-        response.on_hover_ui_at_pointer(|ui| widgets::tooltip_table(ui, &title, &lines, look));
+        response.on_hover_ui_at_pointer(|ui| {
+            widgets::tooltip_table(ui, &title, &lines, look);
+            if can_fail {
+                let hint = word!(
+                    language,
+                    "Right-click: switch off, hang, cut off",
+                    "Botão direito: desligar, travar, isolar"
+                );
+                ui.label(RichText::new(hint).font(theme::regular(theme::SMALL)).color(look.quiet));
+            }
+        });
     }
 }
 

@@ -60,7 +60,7 @@ pub fn show(ui: &mut Ui, session: &Session, open: OpenPages) -> Option<UserComma
             ui.add_space(GRID);
             // Compare has a clock of its own.
             if !open.compare {
-                clock(ui, session.stage(), look, language);
+                clock(ui, session, look);
                 if let Some(state) = time_state(session).filter(|_| ui.available_width() > 260.0) {
                     ui.label(quiet(state.into(), look.quiet));
                 }
@@ -204,7 +204,8 @@ fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> 
             "Undo the last change of a speed or a setting (Ctrl Z)",
             "Desfazer a última mudança de velocidade ou de ajuste (Ctrl Z)"
         );
-        if button.on_hover_text(hint).clicked() {
+        let nothing = word!(language, "Undo: nothing to undo yet (Ctrl Z)", "Desfazer: ainda nada a desfazer (Ctrl Z)");
+        if button.on_hover_text(hint).on_disabled_hover_text(nothing).clicked() {
             clicked = Some(UserCommand::Undo);
         }
     });
@@ -248,7 +249,11 @@ fn buttons(ui: &mut Ui, session: &Session, labelled: usize, open: OpenPages) -> 
         false if stage.phase == Phase::Preparing => (Icon::Pause, pause),
         false => (Icon::Play, resume),
     };
-    let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_)) && !open.compare;
+    // Compare has a clock and a button of its own.
+    if open.compare {
+        return clicked;
+    }
+    let can = !matches!(stage.phase, Phase::Preparing | Phase::Failed(_));
     // A narrow bar has no room for it.
     let room = if labelled > 0 { play_room(ui, language) } else { 0.0 };
     ui.add_enabled_ui(can, |ui| {
@@ -266,6 +271,7 @@ fn time_state(session: &Session) -> Option<&'static str> {
     let stage = session.stage();
     match (stage.phase == Phase::Running, stage.is_live(), stage.goes_on()) {
         (_, true, _) if stage.paused => Some(word!(language, "paused at", "em pausa em")),
+        (_, true, _) if session.recovering_scheduler().is_some() => Some(word!(language, "hangs since", "parou em")),
         (_, true, _) => None,
         (true, false, true) => Some(word!(language, "earlier", "antes")),
         (false, false, true) => Some(word!(language, "again", "de novo")),
@@ -282,10 +288,13 @@ fn longest_time(stage: &Stage) -> Time {
 
 /// Shows the time of the run. It has the width of the longest time that is to be expected, so that its neighbours stay
 /// in their places.
-fn clock(ui: &mut Ui, stage: &Stage, look: Look, language: Language) {
+fn clock(ui: &mut Ui, session: &Session, look: Look) {
+    let (stage, language) = (session.stage(), session.language());
     let (scale, font) = (stage.playback_scale(), theme::strong(theme::LARGE));
     let layout = |time| ui.painter().layout_no_wrap(time_words(time, scale, language), font.clone(), look.text);
-    let time = stage.lasted();
+    // In a run that hangs for ever nothing happens any more.
+    let hangs = session.recovering_scheduler().is_some();
+    let time = if hangs { stage.lasted().min(stage.state().head()) } else { stage.lasted() };
     let size = layout(longest_time(stage)).size();
     // Without a gap it would touch the scene's name.
     if size.x + GRID < ui.available_width() {

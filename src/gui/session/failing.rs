@@ -4,8 +4,10 @@ use std::time::Duration;
 
 use super::{Phase, Session};
 use crate::balance::{Condition, NodeId, Party, Remedy, Scheduler};
+use crate::gui::settings::undo::Gesture;
+use crate::language::{Language, word};
 use crate::scenario::Command;
-use crate::view::NodeState;
+use crate::view::{NodeState, recovering_scheduler};
 
 impl Session {
     /// Returns the condition of a machine: of a recorded run at the shown moment, else now.
@@ -28,12 +30,29 @@ impl Session {
         self.header().remedies().has(Remedy::Leases)
     }
 
-    /// Sets a machine's condition, in a run that allows it.
+    /// Sets a machine's condition, in a run that allows it; in another run says why not.
     pub fn set_condition(&mut self, node: NodeId, condition: Condition) {
         if self.can_fail() {
             self.return_to_present();
             self.stage.source.command(Command::Condition { node, condition });
+        } else {
+            self.note(only_live_words(self.language));
         }
+    }
+
+    /// Returns the scheduler that would have recovered, if the live run on the stage hangs for ever after a failure.
+    pub fn recovering_scheduler(&self) -> Option<Scheduler> {
+        let is_live = !self.is_recorded() && self.stage.phase == Phase::Running;
+        is_live.then(|| recovering_scheduler(self.stage.state())).flatten()
+    }
+
+    /// Starts the run again with the scheduler that would have recovered.
+    pub fn restart_recovering(&mut self) {
+        let Some(scheduler) = self.recovering_scheduler() else { return };
+        self.change(Gesture::Once, |settings| {
+            settings.remedies = settings.remedies.with(Remedy::Leases);
+            settings.set_scheduler(scheduler);
+        });
     }
 
     /// Delays the messages that are on their way between two parties.
@@ -58,4 +77,13 @@ impl Session {
     fn scheduler(&self) -> Scheduler {
         self.header().scheduler()
     }
+}
+
+/// Says in which runs machines can fail.
+pub fn only_live_words(language: Language) -> &'static str {
+    word!(
+        language,
+        "Only in a live run that has not ended. Press Restart",
+        "Só numa execução ao vivo que não terminou. Pressione Reiniciar"
+    )
 }

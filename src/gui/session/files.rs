@@ -11,7 +11,7 @@ use super::run_source::RunSource;
 use super::stage::{Phase, Stage};
 use super::{DEMONSTRATION, Notice, NoticeCause, NoticeKind, Session};
 use crate::driver::Retrace;
-use crate::language::say;
+use crate::language::{say, word};
 use crate::output::is_same_file;
 use crate::runlog::{RunLog, text_lines};
 use crate::scene::Opened;
@@ -26,7 +26,7 @@ impl Session {
             Opening::Run(log) => log.header.scene.clone(),
             Opening::Lesson(lesson) => lesson.name.clone(),
         };
-        self.load(name, false, move || Ok(opening));
+        self.load(name, None, move || Ok(opening));
     }
 
     /// Reads a file or a built-in scene and shows it. Until then, and if that fails, the present run stays.
@@ -43,17 +43,32 @@ impl Session {
             ));
         }
         self.camera_move = None;
-        self.load(name, true, move || Opening::read(path));
+        self.load(name, Some(path.clone()), move || Opening::read(path));
     }
 
-    /// Reads the file of the scene again.
+    /// Reads the file again that could not be opened, else that of the scene. What is said of it stays until it is
+    /// read.
     pub fn reload(&mut self) {
-        self.notices.end(NoticeCause::File);
-        if !self.is_recorded()
-            && let Some(path) = self.opened().and_then(|opened| opened.path.clone())
-        {
-            self.open(path);
+        let language = self.language;
+        match self.file_at_work() {
+            Some(path) => self.open(path),
+            None => self.note(word!(
+                language,
+                "There is no file to reload: the scene is built in, or the run is recorded",
+                "Não há arquivo a recarregar: a cena é interna, ou a execução é gravada"
+            )),
         }
+    }
+
+    /// Returns the file that the user is at work on: the one that could not be opened, else that of the scene.
+    fn file_at_work(&self) -> Option<PathBuf> {
+        let scene = || self.opened().filter(|_| !self.is_recorded()).and_then(|opened| opened.path.clone());
+        self.unopened.as_ref().map(|(path, _)| path.clone()).or_else(scene)
+    }
+
+    /// Watches the file that the user is at work on.
+    pub(super) fn watch_file(&mut self) {
+        self.jobs.watch(self.file_at_work(), self.language);
     }
 
     /// Starts a live run with the scene and the settings of the recorded one.
@@ -122,18 +137,17 @@ impl Session {
 
     /// Shows a recorded run from its beginning.
     pub(super) fn play(&mut self, recorded: Recorded) {
-        let language = self.language;
         let caption = &recorded.log.header.caption;
         let texts: Vec<String> = text_lines(&caption.title).chain(text_lines(&caption.memo)).collect();
         if !texts.is_empty() {
             self.note(shown(&texts.join(" — "), 400));
         }
-        self.jobs.watch(None, language);
         let retrace = Retrace::start(Arc::clone(&recorded.tracer), Arc::clone(&recorded.log));
         let (log, view) = (RunLog::clone(&recorded.log), RunView::clone(&recorded.view));
         let stage = Stage::recorded(RunSource::Recorded(retrace), log, view, self.ground);
         self.set_stage(stage, recorded.preview.clone());
         self.recorded = Some(recorded);
+        self.watch_file();
     }
 
     /// Writes the records in the background to the file of `--log`, if given.
@@ -146,13 +160,12 @@ impl Session {
     /// Starts a run of a compiled scene.
     pub(super) fn show_scene(&mut self, prepared: Prepared) {
         let language = self.language;
-        let path = prepared.opened.path.clone();
-        if let Some(path) = &path {
+        if let Some(path) = &prepared.opened.path {
             self.remember(path.clone());
         }
-        self.jobs.watch(path, language);
         self.prepared = Some(prepared);
         self.recorded = None;
+        self.watch_file();
         self.restart();
         let opened = self.opened().filter(|opened| opened.path.is_some());
         if let Some(note) = opened.and_then(|opened| note_on_media(&opened.scene, language)) {
@@ -160,16 +173,27 @@ impl Session {
         }
     }
 
-    /// Shows the error of a file that could not be opened. At the start of the program a built-in scene opens instead.
-    pub(super) fn report_unopened(&mut self, why: String) {
+    /// Shows the error of a file that could not be opened, and watches it. At the start of the program a built-in scene
+    /// opens instead.
+    pub(super) fn report_unopened(&mut self, file: Option<PathBuf>, why: String) {
         let language = self.language;
         self.camera_move = None;
         self.release_run();
         if self.stage.phase == Phase::Preparing {
             // The error is still to be read.
-            self.load(DEMONSTRATION.into(), false, || Opening::read(DEMONSTRATION));
+            self.load(DEMONSTRATION.into(), None, || Opening::read(DEMONSTRATION));
         }
-        self.trouble_with_file(say!(language, "Not opened. {why}", "Não aberto. {why}"));
+        let Some(path) = file else {
+            return self.trouble_with_file(say!(language, "Not opened. {why}", "Não aberto. {why}"));
+        };
+        let is_again = self.unopened.replace((path.clone(), why.clone())).is_some_and(|(before, _)| before == path);
+        let text = if is_again {
+            say!(language, "Still not opened. {why}", "Ainda não aberto. {why}")
+        } else {
+            say!(language, "Not opened. {why}", "Não aberto. {why}")
+        };
+        self.watch_file();
+        self.replace_file_notice(text, NoticeKind::Unopened);
     }
 
     fn trouble_with_file(&mut self, text: String) {
@@ -178,16 +202,25 @@ impl Session {
 
     /// Reloads the open file, which has changed, or shows the notice that it has changed or was deleted.
     pub(super) fn file_changed(&mut self, path: &Path, change: FileChange) {
-        if self.always_reload && change == FileChange::Written && !self.is_recorded() {
+        if self.file_at_work().as_deref() != Some(path) {
+            return;
+        }
+        if self.always_reload && change == FileChange::Written {
             return self.reload();
         }
         let language = self.language;
         let name = file_name(path);
-        let (text, kind) = match change {
-            FileChange::Written => {
+        let unopened = self.unopened.as_ref().filter(|(unopened, _)| unopened == path);
+        let (text, kind) = match (change, unopened) {
+            (FileChange::Written, Some((_, why))) => {
+                let text =
+                    say!(language, "{name} has changed on disk. Before: {why}", "{name} mudou no disco. Antes: {why}");
+                (text, NoticeKind::Changed)
+            }
+            (FileChange::Written, None) => {
                 (say!(language, "{name} has changed on disk", "{name} mudou no disco"), NoticeKind::Changed)
             }
-            FileChange::Gone => {
+            (FileChange::Gone, _) => {
                 let text = say!(
                     language,
                     "{name} was deleted or moved; the open scene stays as it is",
@@ -196,7 +229,11 @@ impl Session {
                 (text, NoticeKind::Trouble)
             }
         };
-        // What was said of the file before is no longer true.
+        self.replace_file_notice(text, kind);
+    }
+
+    /// Shows a notice about a file in place of what was said of it before, which is no longer true.
+    fn replace_file_notice(&mut self, text: String, kind: NoticeKind) {
         self.notices.end(NoticeCause::File);
         self.notices.add(Notice::new(text, kind, NoticeCause::File, self.clock));
     }

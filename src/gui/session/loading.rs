@@ -1,5 +1,6 @@
 //! What is read, compiled and traced before its run begins, and the beginning of that run.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::job_result::{Prepared, Ready};
@@ -19,8 +20,8 @@ use crate::scene::Opened;
 pub(super) struct Loading {
     pub job: u64,
     name: String,
-    /// Whether the user has opened it, so that notices about files end.
-    pub reads_file: bool,
+    /// The file or built-in scene that the user has opened. With it notices about files end.
+    pub file: Option<PathBuf>,
     progress: TracingProgress,
     /// The picture, if the scene was read before.
     picture: Option<Picture>,
@@ -85,18 +86,18 @@ impl Session {
         }
     }
 
-    /// Starts the job that reads with `read` and compiles. If it `reads_file` for the user and succeeds, notices about
-    /// files end.
+    /// Starts the job that reads with `read` and compiles. If the user has opened a `file` and it succeeds, notices
+    /// about files end.
     pub(super) fn load(
         &mut self,
         name: String,
-        reads_file: bool,
+        file: Option<PathBuf>,
         read: impl FnOnce() -> Result<Opening, String> + Send + 'static,
     ) {
         let progress = TracingProgress::new(self.settings.size.pixels(), self.clock);
         let tracing = (Arc::clone(&self.pictures), progress.job());
         let job = self.jobs.prepare(read, &self.settings, tracing, self.language);
-        self.loading = Some(Loading { job, name, reads_file, progress, picture: None });
+        self.loading = Some(Loading { job, name, file, progress, picture: None });
     }
 
     /// Compiles the scene for the settings, and traces its picture if they are for virtual time. Does nothing if that
@@ -106,7 +107,7 @@ impl Session {
         if self.is_loading(&picture) {
             return;
         }
-        self.load(opened.name.clone(), false, move || Ok(Opening::Scene(opened)));
+        self.load(opened.name.clone(), None, move || Ok(Opening::Scene(opened)));
         self.wait_for(picture);
     }
 
@@ -139,7 +140,7 @@ impl Session {
             self.write_log();
         }
         if self.recorded.take().is_some() {
-            self.jobs.watch(opened.path.clone(), self.language);
+            self.watch_file();
         }
         let work = prepared.work(self.settings.driver);
         let header = self.settings.header(&opened.name, &opened.text, work, cores());
@@ -177,7 +178,7 @@ impl Session {
         let progress = TracingProgress::new(prepared.size.pixels(), self.clock);
         let (name, tracing) = (prepared.opened.name.clone(), (Arc::clone(&self.pictures), progress.job()));
         let job = self.jobs.trace(prepared, tracing, self.language);
-        self.loading = Some(Loading { job, name, reads_file: false, progress, picture: None });
+        self.loading = Some(Loading { job, name, file: None, progress, picture: None });
         self.wait_for(picture);
     }
 

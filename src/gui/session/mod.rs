@@ -42,6 +42,7 @@ pub use comparing::ComparisonSubject;
 pub use export_file::{Export, PictureExport};
 use exporting::ExportJob;
 pub use exporting::ExportProgress;
+pub use failing::only_live_words;
 use inspecting::Inspecting;
 use job_result::Ready;
 pub use job_result::{
@@ -92,6 +93,8 @@ pub struct Session {
     log_path: Option<PathBuf>,
     /// Recently opened files, the latest first.
     recent: Vec<PathBuf>,
+    /// The file that could not be opened, and why, until a file is opened or its notice is closed.
+    unopened: Option<(PathBuf, String)>,
     /// Whether a changed scene is reloaded without a question.
     always_reload: bool,
     /// Background colour of the picture.
@@ -132,6 +135,7 @@ impl Session {
             exports: Vec::new(),
             log_path,
             recent: Vec::new(),
+            unopened: None,
             always_reload: false,
             ground,
             dragged_from: None,
@@ -171,8 +175,9 @@ impl Session {
         for result in self.jobs.results() {
             match result {
                 JobResult::Ready(job, ready) if self.loading.as_ref().is_some_and(|loading| loading.job == job) => {
-                    let reads_file = self.loading.take().is_some_and(|loading| loading.reads_file);
-                    if reads_file && ready.is_ok() {
+                    let file = self.loading.take().and_then(|loading| loading.file);
+                    if file.is_some() && ready.is_ok() {
+                        self.unopened = None;
                         self.notices.end(NoticeCause::File);
                     }
                     match ready {
@@ -180,7 +185,7 @@ impl Session {
                         Ok(Ready::Traced(prepared)) => self.begin(prepared),
                         Ok(Ready::Run(recorded)) => self.open_recorded(recorded),
                         Ok(Ready::Lesson(lesson)) => others.push(JobResult::LessonOpened(lesson)),
-                        Err(why) => self.report_unopened(why),
+                        Err(why) => self.report_unopened(file, why),
                     }
                 }
                 // Another file was opened meanwhile.
@@ -371,9 +376,12 @@ impl Session {
         self.notices.waiting()
     }
 
-    /// Closes the shown notice.
+    /// Closes the shown notice. A file that could not be opened is given up with its notice.
     pub fn close_notice(&mut self) {
         self.notices.close();
+        if !self.notices.has(NoticeCause::File) && self.unopened.take().is_some() {
+            self.watch_file();
+        }
     }
 
     /// Closes the notices about the present run.

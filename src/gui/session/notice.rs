@@ -19,7 +19,9 @@ pub enum NoticeKind {
     Note,
     /// An error; stays until it is closed or its cause ends.
     Trouble,
-    /// The file of the scene has changed; offers to reload it.
+    /// A file could not be opened; offers to read it again.
+    Unopened,
+    /// The file of the scene, or one that could not be opened, has changed; offers to reload it.
     Changed,
 }
 
@@ -59,7 +61,7 @@ impl Notices {
     pub fn add(&mut self, notice: Notice) {
         match notice.kind {
             NoticeKind::Note => self.note = Some(notice),
-            NoticeKind::Trouble | NoticeKind::Changed => {
+            NoticeKind::Trouble | NoticeKind::Unopened | NoticeKind::Changed => {
                 self.errors.retain(|other| other.text != notice.text);
                 self.errors.push(notice);
                 // What was done before it is old news.
@@ -83,6 +85,11 @@ impl Notices {
         if self.note.take().is_none() && !self.errors.is_empty() {
             self.errors.remove(0);
         }
+    }
+
+    /// Whether a notice of this cause is to be read.
+    pub fn has(&self, cause: NoticeCause) -> bool {
+        self.note.iter().chain(&self.errors).any(|notice| notice.cause == cause)
     }
 
     /// Removes the notices whose cause has ended.

@@ -1,5 +1,6 @@
 //! The user's settings: the input of the next run, and what changes the present run at once.
 
+pub mod latency_steps;
 pub mod pace;
 pub mod speed_preset;
 pub mod speed_steps;

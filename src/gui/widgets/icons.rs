@@ -133,10 +133,13 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
             line(&[(0.24, 0.52), (0.24, 0.78), (0.5, 0.9), (0.76, 0.78), (0.76, 0.52)]);
         }
         Icon::Compare => {
-            for (y, length) in [(0.2, 0.55), (0.5, 0.9), (0.8, 0.35)] {
-                let bar = Rect::from_min_max(at(0.06, y - 0.09), at(0.06 + length, y + 0.09));
-                painter.rect_filled(bar, 1.0, colour);
+            // Two pictures side by side.
+            for left in [0.04, 0.56] {
+                let pane = Rect::from_min_max(at(left, 0.16), at(left + 0.4, 0.84));
+                painter.rect_stroke(pane, 1.5, Stroke::new(1.5, colour), egui::StrokeKind::Middle);
             }
+            painter.rect_filled(Rect::from_min_max(at(0.04, 0.5), at(0.44, 0.84)), 1.0, colour);
+            painter.rect_filled(Rect::from_min_max(at(0.56, 0.34), at(0.96, 0.84)), 1.0, colour);
         }
         Icon::Beginning => {
             line(&[(0.22, 0.18), (0.22, 0.82)]);

@@ -20,7 +20,7 @@ use egui::{
     Role, Sense, Stroke, StrokeKind, TextStyle, Tooltip, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::language::{Language, word};
+use crate::language::Language;
 use icons::Icon;
 use number::{NumberError, RefusedNumber};
 use theme::{GRID, Look};
@@ -147,7 +147,32 @@ pub fn number_field<N: egui::emath::Numeric>(
     range: RangeInclusive<N>,
     suffix: &str,
     width: f32,
+    label: (&str, Language),
+) -> Response {
+    // With every key, the beginning of a longer number would count.
+    field_of_number(ui, value, range, suffix, width, label, false)
+}
+
+/// Shows a number field like [`number_field`] whose value follows with every key.
+pub fn live_number_field<N: egui::emath::Numeric>(
+    ui: &mut Ui,
+    value: &mut N,
+    range: RangeInclusive<N>,
+    suffix: &str,
+    width: f32,
+    label: (&str, Language),
+) -> Response {
+    field_of_number(ui, value, range, suffix, width, label, true)
+}
+
+fn field_of_number<N: egui::emath::Numeric>(
+    ui: &mut Ui,
+    value: &mut N,
+    range: RangeInclusive<N>,
+    suffix: &str,
+    width: f32,
     (name, language): (&str, Language),
+    is_live: bool,
 ) -> Response {
     ui.scope(|ui| {
         // A low row has small text.
@@ -168,12 +193,12 @@ pub fn number_field<N: egui::emath::Numeric>(
                 .map_err(|why| refused.set(Some((text.trim().to_owned(), why))))
                 .ok()
         };
-        // With every key, the beginning of a longer number would count.
         let field = DragValue::new(value).range(range).suffix(suffix).max_decimals(0).speed(speed);
-        let field = field.update_while_editing(false).custom_parser(parse);
+        let field = field.update_while_editing(is_live).custom_parser(parse);
         let response = ui.add(field.custom_formatter(|number, _| number::format(number, language)));
         keep_escape(ui, &response);
-        show_refusal(ui, &response, refused.take(), name);
+        // The beginning of a number need not be one.
+        show_refusal(ui, &response, refused.take().filter(|_| !is_live || !response.has_focus()), name);
         let exact = value.to_f64();
         response.widget_info(|| WidgetInfo {
             label: Some(name.to_owned()),
@@ -221,14 +246,13 @@ fn show_refusal(ui: &Ui, response: &Response, refused: Option<(String, NumberErr
 }
 
 /// Shows the content of a menu for a machine or a message: a title, a row for each action with its text and its key,
-/// and a hint. The rows are disabled unless the run `is_possible` to change. Returns the chosen action.
+/// and a hint. The rows are disabled unless they are possible. Returns the chosen action.
 pub fn action_menu<T>(
     ui: &mut Ui,
     title: &str,
     actions: impl IntoIterator<Item = (T, String, &'static str)>,
     (is_possible, hint): (bool, &str),
     look: Look,
-    language: Language,
 ) -> Option<T> {
     ui.set_width(34.0 * GRID);
     let title = Label::new(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text)).wrap();
@@ -242,13 +266,7 @@ pub fn action_menu<T>(
             }
         });
     }
-    let disabled_hint = word!(
-        language,
-        "Only in a live run that has not ended. Press Restart",
-        "Só numa execução ao vivo que não terminou. Pressione Reiniciar"
-    );
-    let hint = RichText::new(if is_possible { hint } else { disabled_hint });
-    let hint = Label::new(hint.font(theme::regular(theme::SMALL)).color(look.quiet)).wrap();
+    let hint = Label::new(RichText::new(hint).font(theme::regular(theme::SMALL)).color(look.quiet)).wrap();
     // The layout of a menu would stretch the lines.
     ui.with_layout(Layout::top_down(Align::Min), |ui| ui.add(hint));
     chosen

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
-use egui::{Key, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Key, Response, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::keep_escape;
 use super::theme::{GRID, Look};
@@ -74,6 +74,35 @@ pub struct TextFieldResponse {
     pub focused: bool,
 }
 
+/// Shows the text field for the path of a file to open: all of its text is selected when it gets the focus.
+pub fn open_field(
+    ui: &mut Ui,
+    (path, hint): (&mut String, &str),
+    width: f32,
+    name: &str,
+    wants_focus: &mut bool,
+) -> TextFieldResponse {
+    let (field, _, entered) = text_field(ui, (path, hint), width, name, wants_focus);
+    // A press of the mouse sets the cursor until the button is released.
+    let (waits, is_down) = (field.id.with("waits for the mouse"), ui.input(|input| input.pointer.any_down()));
+    if field.gained_focus() {
+        ui.data_mut(|data| data.insert_temp(waits, is_down));
+    }
+    if field.has_focus()
+        && !is_down
+        && let Some(by_mouse) = ui.data_mut(|data| data.remove_temp::<bool>(waits))
+    {
+        let mut state = TextEditState::load(ui.ctx(), field.id).unwrap_or_default();
+        // What the mouse has selected in this press stays selected.
+        if !by_mouse || state.cursor.char_range().is_none_or(|range| range.is_empty()) {
+            let end = CCursor::new(path.chars().count());
+            state.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(0), end)));
+            state.store(ui.ctx(), field.id);
+        }
+    }
+    TextFieldResponse { changed: field.changed(), entered, focused: field.has_focus() }
+}
+
 /// Shows a text field for a path, with a hint while it is empty. It gets the focus if it `wants_focus`, and keeps it on
 /// Enter, so that the user can correct a mistake. `name` is its accessible name.
 pub fn path_field(
@@ -83,6 +112,25 @@ pub fn path_field(
     name: &str,
     wants_focus: &mut bool,
 ) -> TextFieldResponse {
+    let (field, begins, entered) = text_field(ui, (path, hint), width, name, wants_focus);
+    if begins {
+        // Selects the stem of the file name: users change it more often than the directory or the extension.
+        let mut state = TextEditState::load(ui.ctx(), field.id).unwrap_or_default();
+        let [from, to] = stem_range(path).map(CCursor::new);
+        state.cursor.set_char_range(Some(CCursorRange::two(from, to)));
+        state.store(ui.ctx(), field.id);
+    }
+    TextFieldResponse { changed: field.changed(), entered, focused: field.has_focus() }
+}
+
+/// Shows a text field. Returns its response, whether it gets the focus, and whether Enter was pressed.
+fn text_field(
+    ui: &mut Ui,
+    (path, hint): (&mut String, &str),
+    width: f32,
+    name: &str,
+    wants_focus: &mut bool,
+) -> (Response, bool, bool) {
     let hint = RichText::new(hint).color(Look::of(ui.ctx()).quiet);
     let field = TextEdit::singleline(path).desired_width(width).hint_text(hint).margin(vec2(GRID, 0.75 * GRID));
     let field = ui.add(field);
@@ -93,14 +141,7 @@ pub fn path_field(
     if begins || entered {
         field.request_focus();
     }
-    if begins {
-        // Selects the stem of the file name: users change it more often than the directory or the extension.
-        let mut state = TextEditState::load(ui.ctx(), field.id).unwrap_or_default();
-        let [from, to] = stem_range(path).map(CCursor::new);
-        state.cursor.set_char_range(Some(CCursorRange::two(from, to)));
-        state.store(ui.ctx(), field.id);
-    }
-    TextFieldResponse { changed: field.changed(), entered, focused: field.has_focus() }
+    (field, begins, entered)
 }
 
 /// Returns begin and end of the file name without its extension, in characters.

@@ -1,6 +1,6 @@
 //! A slim slider.
 
-use egui::{Color32, Response, Stroke, Ui, WidgetInfo, pos2};
+use egui::{Color32, Event, MouseWheelUnit, Response, Stroke, Ui, WidgetInfo, pos2};
 
 use super::theme::{GRID, Look};
 
@@ -20,6 +20,9 @@ impl Scale {
     /// Value of the logarithmic scale just right of its left end, which is 0.
     const LEAST_PERCENT: f64 = 0.4;
 
+    /// Values that the logarithmic scale marks with ticks.
+    const TICKS_PERCENT: [f64; 3] = [1.0, 10.0, 100.0];
+
     fn ends(self) -> (f64, f64) {
         match self {
             Self::Linear(min, max) | Self::Whole(min, max) => (min, max),
@@ -37,6 +40,17 @@ impl Scale {
         };
         share.clamp(0.0, 1.0) as f32
     }
+}
+
+/// Returns by how many notches the wheel was turned up over a widget; negative if it was turned down.
+pub fn wheel_steps(ui: &Ui, widget: &Response) -> i32 {
+    let notches = |event: &Event| match event {
+        Event::MouseWheel { unit: MouseWheelUnit::Line, delta, modifiers, .. } if !modifiers.any() => {
+            delta.y.round() as i32
+        }
+        _ => 0,
+    };
+    if widget.hovered() { ui.input(|input| input.events.iter().map(notches).sum()) } else { 0 }
 }
 
 /// Shows a slider with its filled part in `colour`. `name` is its accessible name.
@@ -63,6 +77,13 @@ pub fn slider(ui: &mut Ui, value: &mut f64, scale: Scale, width: f32, colour: Co
         let left = response.rect.left() + radius;
         let x = left + (response.rect.width() - 2.0 * radius) * scale.position(*value);
         let handle = pos2(x, response.rect.center().y);
+        if scale == Scale::Percent {
+            for tick in Scale::TICKS_PERCENT {
+                let x = left + (response.rect.width() - 2.0 * radius) * scale.position(tick);
+                let below = handle.y + 4.0..=handle.y + 7.0;
+                ui.painter().vline(x, below, Stroke::new(1.0, look.quiet));
+            }
+        }
         let handle_radius = if response.hovered() || response.dragged() { radius + 1.0 } else { radius };
         let line = if ui.is_enabled() { look.text } else { look.quiet };
         ui.painter().circle(handle, handle_radius, colour, Stroke::new(2.0, line));

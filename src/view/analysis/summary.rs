@@ -113,6 +113,7 @@ pub fn work_split_words(state: &RunState, language: Language) -> Option<String> 
         }
         scheduler => {
             let costliest = Costliest::of(state).map(|costliest| costliest.words(state, language));
+            let costliest = costliest.or_else(|| message_wait_words(state, Duration::ZERO, language));
             let parts = counted(state.handed_out.count, word!(language, "part", "parte"), language);
             let handed_out = scheduler
                 .is_farm()
@@ -169,6 +170,12 @@ impl<'a> Costliest<'a> {
                 "{name} ({how}) cost most: the others waited {waited} for it on average",
                 "{name} ({how}) custou mais: as outras esperaram {waited} por ela em média"
             )
+        } else if let Some(words) = message_wait_words(state, self.waited, language) {
+            say!(
+                language,
+                "{words}. The others waited {waited} for {name}, the last",
+                "{words}. As outras esperaram {waited} por {name}, a última"
+            )
         } else {
             say!(
                 language,
@@ -177,6 +184,31 @@ impl<'a> Costliest<'a> {
             )
         }
     }
+}
+
+/// Says how long machines waited for messages on average, if that cost more than the wait for the last machine
+/// (`waited`) and more than a twentieth of the run.
+fn message_wait_words(state: &RunState, waited: Duration, language: Language) -> Option<String> {
+    let latency = state.latency();
+    if latency.is_zero() || *state.scheduler() == Scheduler::WorkStealing {
+        return None;
+    }
+    let whole = end(state).since(Time::ZERO);
+    // After its last atom a machine waits for others, not for messages.
+    let waits: Vec<Duration> = state
+        .nodes()
+        .iter()
+        .filter_map(|of| of.last_atom.map(|at| of.idle(end(state)).saturating_sub(end(state).since(at))))
+        .collect();
+    let mean = waits.iter().sum::<Duration>().checked_div(u32::try_from(waits.len()).ok()?)?;
+    (mean > waited && mean > whole.mul_f64(0.05)).then(|| {
+        let (mean, latency) = (beside(whole, mean, language), duration(latency, language));
+        say!(
+            language,
+            "Waiting for messages cost most, {mean} of each machine on average: one takes {latency}",
+            "Esperar mensagens custou mais, {mean} de cada máquina em média: uma leva {latency}"
+        )
+    })
 }
 
 /// Returns when the picture was complete.
@@ -317,6 +349,23 @@ mod tests {
         assert!(farm.starts_with(&format!("{three}. 3 (at 10 %) cost most: the others waited ")), "{farm}");
         assert!(farm.contains(" for it on average. 1 traced most: "), "{farm}");
         assert!(farm.ends_with(" at 10 %. Machines asked the parent for 27 parts"), "{farm}");
+    }
+
+    #[test]
+    fn latency_that_cost_most_is_named() {
+        let language = Language::English;
+        let words = |latency| {
+            let mut header = sample_runs::header(&[1.0; 4], 400);
+            header.rules.strategy = Strategy::Farm;
+            header.link.latency = Duration::from_millis(latency);
+            let mut state = RunState::new(&header);
+            sample_runs::records(&header).iter().for_each(|record| state.apply(record));
+            work_split_words(&state, language).unwrap_or_default()
+        };
+        let (slow, fast) = (words(500), words(0));
+        assert!(slow.starts_with("Waiting for messages cost most, "), "{slow}");
+        assert!(slow.contains(" of each machine on average: one takes 500 ms"), "{slow}");
+        assert!(!fast.contains("messages"), "{fast}");
     }
 
     #[test]

@@ -109,7 +109,11 @@ impl Inspected {
         if self.lights > 0 {
             let lights: Vec<_> = (0..self.lights).map(|light| self.light_words(ray, light, language)).collect();
             let lights = lights.join(", ");
-            sentences.push(say!(language, "There {lights}.", "Ali {lights}."));
+            sentences.push(say!(
+                language,
+                "Of the lights at this point: {lights}.",
+                "Das luzes neste ponto: {lights}."
+            ));
         }
         sentences
     }
@@ -120,7 +124,7 @@ impl Inspected {
         match ray.lights.iter().find(|lit| lit.light == light).map(|lit| lit.arriving) {
             None => say!(language, "light {name} is behind the surface", "a luz {name} está atrás da superfície"),
             Some(DVec3::ZERO) => say!(language, "light {name} is hidden", "a luz {name} está encoberta"),
-            Some(DVec3::ONE) => say!(language, "light {name} arrives", "a luz {name} chega"),
+            Some(DVec3::ONE) => say!(language, "light {name} arrives fully", "a luz {name} chega inteira"),
             Some(part) if part == DVec3::splat(part.x) => {
                 let part = fine_fraction(part.x, language);
                 say!(language, "{part} of light {name} arrives", "da luz {name} chega {part}")

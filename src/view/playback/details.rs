@@ -13,6 +13,7 @@ use crate::view::narration::record_sentences::share_words;
 use crate::view::state::flight::{Cargo, Flight};
 use crate::view::state::lane::Traced;
 use crate::view::state::lanes::Lanes;
+use crate::view::state::node_rows::node_rows;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{TimeScale, count, duration, node_name, time_words};
 use crate::view::text::tooltips::{Fact, atom_words, flight_words, node_facts};
@@ -123,10 +124,12 @@ impl Details {
                     "Machine {name}, at a speed of {speed}: {does}",
                     "Máquina {name}, à velocidade de {speed}: {does}"
                 );
+                let is_lost = node_rows(state, now).get(usize::from(node)).is_some_and(|row| row.lost > 0);
+                let left = if is_lost { left.to_owned() } else { say!(language, "{left} left", "ainda tem {left}") };
                 let more = say!(
                     language,
-                    "{done} done, {left} left, idle {idle} of its time{shared}",
-                    "calculou {done}, ainda tem {left}, ociosa {idle} do tempo{shared}"
+                    "{done} done, {left}, idle {idle} of its time{shared}",
+                    "calculou {done}, {left}, ociosa {idle} do tempo{shared}"
                 );
                 (title, more)
             }

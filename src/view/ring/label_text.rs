@@ -2,7 +2,7 @@
 
 use super::labels::{LabelForm, MAX_LABELLED_NODES};
 use super::layout::RingLayout;
-use crate::balance::NodeId;
+use crate::balance::{NodeId, Remedy};
 use crate::language::{Language, say};
 use crate::time::Time;
 use crate::view::draw::display_list::{Hue, Mark, TextSize};
@@ -56,6 +56,10 @@ fn lines(state: &RunState, of: &NodeState, activity: Activity, now: Time, langua
             [done, say!(language, "{share} of all", "{share} de tudo")]
         }
         Activity::NoBand | Activity::Spare => [activity_word(activity, language).into(), String::new()],
+        Activity::Off if of.lost_atoms > 0 && !state.has(Remedy::Leases) => {
+            let lost = short_count(of.lost_atoms);
+            [say!(language, "{lost} lost", "perdeu {lost}"), activity_word(activity, language).into()]
+        }
         _ if activity.is_out() => [done, activity_word(activity, language).into()],
         Activity::Tracing => {
             let speed = fraction(of.speed);

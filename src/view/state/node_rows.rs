@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::node_state::{Activity, NodeState};
 use super::run_state::RunState;
-use crate::balance::NodeId;
+use crate::balance::{Condition, NodeId, Remedy};
 use crate::time::Time;
 
 /// Row of a node at one time.
@@ -17,6 +17,8 @@ pub struct NodeRow {
     pub done: u32,
     /// Atoms that it has, without those in parcels that are drawn on their way.
     pub left: u32,
+    /// Atoms that were lost when it was switched off, and that nobody will hand out again.
+    pub lost: u32,
     /// Length of its bar of done atoms, 0 to 1 on a scale that all rows share.
     pub done_bar: f32,
     /// End of its bar of atoms left, on the same scale. The bar begins at `done_bar`.
@@ -60,6 +62,7 @@ pub fn node_rows(state: &RunState, now: Time) -> Vec<NodeRow> {
         node: *node,
         done: of.done,
         left: of.left(),
+        lost: if of.condition == Condition::Off && !state.has(Remedy::Leases) { of.lost_atoms } else { 0 },
         done_bar: of.done as f32 / most,
         left_bar: (of.done + of.left()) as f32 / most,
         idle: if until == Time::ZERO { 0.0 } else { of.idle(until).as_secs_f64().min(until.secs()) / until.secs() },

@@ -226,7 +226,8 @@ fn brief_seconds(length: Duration, language: Language) -> String {
     format!("{} s", decimal(language, seconds, usize::from(seconds < 9.95)))
 }
 
-/// Returns what a node is doing, for its row: if it is or was stopped, also for how long.
+/// Returns what a node is doing, for its row: if it is or was stopped, also for how long; or how many atoms are lost
+/// with it.
 pub fn row_words(row: &NodeRow, language: Language) -> String {
     /// A shorter stop would be written as 0.
     const MIN_STOP: Duration = Duration::from_millis(50);
@@ -234,6 +235,10 @@ pub fn row_words(row: &NodeRow, language: Language) -> String {
         Activity::Done => word!(language, "stopped", "parada"),
         activity => activity_word(activity, language),
     };
+    if row.lost > 0 {
+        let lost = count(row.lost);
+        return say!(language, "{activity}, {lost} lost", "{activity}, {lost} perdidos");
+    }
     let stops = matches!(
         row.activity,
         Activity::Done | Activity::Paused | Activity::SpeedZero | Activity::Hung | Activity::Off

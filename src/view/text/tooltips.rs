@@ -79,7 +79,7 @@ pub(crate) fn node_facts(state: &RunState, node: NodeId, now: Time, language: La
         (Fact::State, Some(format!("{}{paused}", activity_word(row.activity, language)))),
         (Fact::Speed, Some(fraction(of.speed))),
         (Fact::Done, Some(atoms_words(of.done, language))),
-        (Fact::Left, Some(atoms_words(of.left(), language))),
+        (Fact::Left, Some(left_words(of, row.lost, language))),
         (Fact::Pipe, Some(pipe_words(of, language).into())),
         (Fact::Rate, Some(rate_words(row.rate, language))),
         (Fact::Idle, Some(fraction(row.idle))),
@@ -90,6 +90,12 @@ pub(crate) fn node_facts(state: &RunState, node: NodeId, now: Time, language: La
     facts.extend(shared_facts(state.scheduler(), of, language));
     facts.extend(own_link_words(state, Party::Node(node), language).map(|own| (Fact::Link, Some(own))));
     facts
+}
+
+/// Writes how many atoms a node still has, or how many were lost with it.
+fn left_words(of: &NodeState, lost: u32, language: Language) -> String {
+    let atoms = atoms_words(if lost > 0 { lost } else { of.left() }, language);
+    if lost > 0 { say!(language, "{atoms} lost", "perdeu {atoms}") } else { atoms }
 }
 
 /// Returns the latency and the bandwidth that a party has of its own; `None` if it has none.

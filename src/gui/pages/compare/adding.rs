@@ -56,6 +56,9 @@ pub fn changes(
         let last = nodes.saturating_sub(1);
         let mut node = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(last).min(last);
         let mut chosen = None;
+        let title = say!(language, "{letter} again, with one change", "{letter} de novo, com uma mudança");
+        ui.label(RichText::new(title).font(theme::strong(theme::BODY)).color(look.text));
+        ui.add_space(GRID / 2.0);
         for (group, changes) in possible_changes(trial, language) {
             chosen = chosen.or(row(ui, group, changes, look, language));
         }

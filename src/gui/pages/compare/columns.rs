@@ -141,8 +141,8 @@ fn heading(
 fn choose_hint(language: Language) -> &'static str {
     word!(
         language,
-        "Click to see why it differs from the other chosen run",
-        "Clique para ver por que difere da outra execução escolhida"
+        "Click: compare it with the run that was chosen last",
+        "Clique: comparar com a execução escolhida por último"
     )
 }
 

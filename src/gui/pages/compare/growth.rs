@@ -57,10 +57,15 @@ pub fn show(
     });
 }
 
-/// Colour and style of the curves of equal bands, the farm, the ring and the adaptive ring. The colours of machines
-/// belong to the machines, whose pictures are above.
-const CURVES: [(Hue, Style); 4] =
-    [(Hue::Quiet, Style::Line), (Hue::Text, Style::Line), (Hue::Accent, Style::Line), (Hue::Accent, Style::Dashed)];
+/// Colour and style of the curves of equal bands, the farm, the farm with leases, the ring and the adaptive ring. The
+/// colours of machines belong to the machines, whose pictures are above. Dashes let an equal curve below be seen.
+const CURVES: [(Hue, Style); 5] = [
+    (Hue::Quiet, Style::Line),
+    (Hue::Text, Style::Line),
+    (Hue::Quiet, Style::Dashed),
+    (Hue::Accent, Style::Line),
+    (Hue::Text, Style::Dashed),
+];
 
 /// Builds the chart.
 fn chart(growth: &Growth, columns: &[CompareColumn], measure: Measure, language: Language) -> LineChart {

@@ -14,7 +14,7 @@ use crate::balance::Strategy;
 use crate::gui::input::keys::UserCommand;
 use crate::gui::session::{PreparedLesson, PreparingLesson, Purpose, Recorded, Session, TracedShare};
 use crate::gui::widgets::icons::Icon;
-use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, path_field};
+use crate::gui::widgets::path_input::{TypedPath, no_file_chosen, open_field};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, progress};
 use crate::language::{Language, word};
@@ -192,10 +192,11 @@ impl Learn {
         }
     }
 
-    /// Shows the list.
-    pub fn show(&mut self, ui: &mut Ui, session: &mut Session) {
+    /// Shows the list. Returns whether presentation mode is to be switched.
+    pub fn show(&mut self, ui: &mut Ui, session: &mut Session, is_projector: bool) -> bool {
         let language = session.language();
         let look = Look::of(ui.ctx());
+        let mut switches = false;
         ui.horizontal(|ui| {
             ui.label(
                 RichText::new(word!(language, "Learn", "Lições")).font(theme::strong(theme::LARGE)).color(look.text),
@@ -205,6 +206,14 @@ impl Learn {
                 if button(ui, Some(Icon::Close), close, false, Emphasis::Quiet).clicked() {
                     self.close();
                 }
+                let emphasis = if is_projector { Emphasis::On } else { Emphasis::Quiet };
+                let name = word!(language, "For a projector", "Para o projetor");
+                let hint = word!(
+                    language,
+                    "Large text and strong colours, without controls (F11)",
+                    "Texto grande e cores fortes, sem controles (F11)"
+                );
+                switches = button(ui, None, name, true, emphasis).on_hover_text(hint).clicked();
                 self.progress(ui, session, look);
             });
         });
@@ -229,6 +238,7 @@ impl Learn {
             ui.add_space(GRID);
             self.own_lesson(ui, session, look);
         });
+        switches
     }
 
     /// Shows the progress of the lesson that is being prepared, and the button that cancels it.
@@ -256,7 +266,7 @@ impl Learn {
         ui.horizontal(|ui| {
             let hint = word!(language, "path of a lesson, for example mine.ron", "uma lição, por exemplo minha.ron");
             let name = word!(language, "Path of a lesson", "Caminho de uma lição");
-            let field = path_field(ui, (self.path.text_mut(), hint), 40.0 * GRID, name, &mut false);
+            let field = open_field(ui, (self.path.text_mut(), hint), 40.0 * GRID, name, &mut false);
             let opens =
                 button(ui, None, word!(language, "Open the lesson", "Abrir a lição"), true, Emphasis::Quiet).clicked();
             if (field.entered || opens) && !self.path.text().trim().is_empty() {

@@ -17,7 +17,8 @@ use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
 use crate::view::{
-    Activity, Definition, Highlight, NodeRow, Subject, count, fraction, node_name, node_rows, rate_number, row_words,
+    Activity, Definition, Highlight, NodeRow, Subject, activity_word, count, fraction, node_name, node_rows,
+    rate_number, row_words,
 };
 use row_layout::{RowGrid, RowLayout};
 
@@ -109,7 +110,7 @@ fn background(
     let response = ui.interact(layout.row, ui.scope_id().with(("row", row.node)), Sense::click());
     widgets::describe(&response, &say!(language, "Machine {name}", "Máquina {name}"), || {
         let selected = if is_selected { word!(language, ", selected", ", selecionada") } else { "" };
-        let (done, left, activity) = (row.done, row.left, row_words(row, language));
+        let (done, left, activity) = (row.done, row.left + row.lost, row_words(row, language));
         say!(
             language,
             "{done} atoms done, {left} left, {activity}{selected}",
@@ -148,15 +149,22 @@ fn figures(ui: &Ui, layout: &RowLayout, row: &NodeRow, session: &Session, look: 
     };
     let ink = |stands_out: bool| if stands_out { look.text } else { look.quiet };
     number(layout.done, count(row.done), look.text);
-    number(Some(layout.left), count(row.left), ink(row.left > 0));
+    if row.lost > 0 {
+        number(Some(layout.left), count(row.lost), look.trouble);
+    } else {
+        number(Some(layout.left), count(row.left), ink(row.left > 0));
+    }
     number(layout.rate, rate_number(row.rate, language), ink(row.rate > 0.0));
     number(layout.idle, fraction(row.idle), look.text);
     let is_calm = row.activity.is_out() || matches!(row.activity, Activity::Idle | Activity::NoBand | Activity::Done);
     let now = pos2(layout.activity, y);
-    let words = row_words(row, language);
-    let layout_words = |size| painter.layout_no_wrap(words.clone(), theme::regular(size), ink(!is_calm));
-    let galley = Some(layout_words(size)).filter(|galley| now.x + galley.size().x <= layout.row.right());
-    let galley = galley.unwrap_or_else(|| layout_words(theme::SMALL));
+    // Where a row has no room for all, the activity alone.
+    let (words, activity) = (row_words(row, language), activity_word(row.activity, language).to_owned());
+    let words_ink = if row.lost > 0 { look.trouble } else { ink(!is_calm) };
+    let layouts = [(&words, size), (&words, theme::SMALL), (&activity, size), (&activity, theme::SMALL)]
+        .map(|(words, size)| painter.layout_no_wrap(words.clone(), theme::regular(size), words_ink));
+    let [.., least] = &layouts;
+    let galley = layouts.iter().find(|galley| now.x + galley.size().x <= layout.row.right()).unwrap_or(least).clone();
     painter.galley(now - vec2(0.0, galley.size().y / 2.0), galley, look.text);
     if let Some(bar) = layout.bar {
         let upto = |share: f32| bar.with_max_x(bar.left() + bar.width() * share);

@@ -6,7 +6,7 @@ use egui::{RichText, Ui};
 use serde::{Deserialize, Serialize};
 
 use crate::export::Film;
-use crate::gui::widgets::number_field;
+use crate::gui::widgets::live_number_field;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, word};
 use crate::view::Layer;
@@ -50,10 +50,10 @@ impl FilmOptions {
         ui.horizontal(|ui| {
             label(ui, word!(language, "lasts", "dura"));
             let name = word!(language, "Seconds of the animation", "Segundos do filme");
-            number_field(ui, &mut self.seconds, Film::SECONDS, " s", 8.0 * GRID, (name, language));
+            live_number_field(ui, &mut self.seconds, Film::SECONDS, " s", 8.0 * GRID, (name, language));
             label(ui, word!(language, "picture", "imagem"));
             let name = word!(language, "Width of the picture in the animation", "Largura da imagem no filme");
-            number_field(ui, &mut self.width, Film::WIDTHS, " px", 10.0 * GRID, (name, language));
+            live_number_field(ui, &mut self.width, Film::WIDTHS, " px", 10.0 * GRID, (name, language));
         });
     }
 }

@@ -41,16 +41,23 @@ pub enum SaveKind {
     Rows,
 }
 
+/// A heading in English and in Portuguese, and the kinds below it.
+pub type KindGroup = ((&'static str, &'static str), &'static [SaveKind]);
+
 impl SaveKind {
-    /// Groups of kinds for a run: pictures, drawings, records.
-    pub const OF_RUN: [&[Self]; 3] = [
-        &[Self::Render, Self::Owners, Self::Costs, Self::Arrival, Self::Blend, Self::Large],
-        &[Self::Ring, Self::Timeline, Self::Film],
-        &[Self::Run, Self::Table, Self::Chrome],
+    /// Groups of kinds for a run, each with its heading.
+    pub const OF_RUN: [KindGroup; 3] = [
+        (
+            ("The picture", "A imagem"),
+            &[Self::Render, Self::Owners, Self::Costs, Self::Arrival, Self::Blend, Self::Large],
+        ),
+        (("The course of the run", "O curso da execução"), &[Self::Ring, Self::Timeline, Self::Film]),
+        (("The records", "Os registros"), &[Self::Run, Self::Table, Self::Chrome]),
     ];
 
     /// Kinds for compared runs, and for the run that is their subject.
-    pub const OF_COMPARISON: [&[Self]; 1] = [&[Self::Bars, Self::Rows, Self::Run]];
+    pub const OF_COMPARISON: [KindGroup; 1] =
+        [(("The compared runs", "As execuções comparadas"), &[Self::Bars, Self::Rows, Self::Run])];
 
     /// Returns the text of its button.
     pub fn name(self, language: Language) -> &'static str {
@@ -63,7 +70,7 @@ impl SaveKind {
             Self::Large => word!(language, "any size", "ampliada"),
             Self::Ring => word!(language, "ring", "anel"),
             Self::Timeline => word!(language, "timeline", "linha do tempo"),
-            Self::Film => word!(language, "animation", "filme"),
+            Self::Film => word!(language, "animation (GIF)", "filme (GIF)"),
             Self::Run => word!(language, "run", "execução"),
             Self::Table | Self::Rows => word!(language, "table", "tabela"),
             Self::Chrome => "Perfetto",
@@ -189,9 +196,9 @@ impl SaveKind {
         }
     }
 
-    /// Returns a file name that says what is saved. `large` tells a picture that is traced again from others: its
-    /// size and so on.
-    pub fn file_name(self, header: &Header, done: bool, large: &str) -> String {
+    /// Returns a file name that says what is saved. `own` tells a picture that is traced again or an animation from
+    /// others: its size and so on.
+    pub fn file_name(self, header: &Header, done: bool, own: &str) -> String {
         let scene = as_file_name(&header.scene);
         let of_run = format!("-{}-{}", header.scheduler().name(), header.speeds.len());
         let content = match self {
@@ -207,12 +214,15 @@ impl SaveKind {
             Self::Bars | Self::Rows => "-comparison".into(),
         };
         let size = header.size.to_string();
-        let size = if self == Self::Large { large } else { &size };
+        let size = if matches!(self, Self::Large | Self::Film) { own } else { &size };
         let is_whole = done || matches!(self, Self::Large | Self::Bars | Self::Rows);
         let unfinished = if is_whole { "" } else { "-unfinished" };
         format!("{scene}-{size}{content}{unfinished}.{}", self.ending())
     }
 }
+
+/// What people call 1080p: the pixels of a screen, 16 : 9.
+pub const FULL_HD: [u32; 2] = [1920, 1080];
 
 /// What people call 4K: the pixels of a screen, 16 : 9.
 pub const FOUR_K: [u32; 2] = [3840, 2160];
@@ -254,12 +264,14 @@ mod tests {
         assert_eq!(named(SaveKind::Render, true), "my-scene-640x480.png");
         assert_eq!(named(SaveKind::Owners, false), "my-scene-640x480-owners-unfinished.png");
         assert_eq!(named(SaveKind::Run, true), "my-scene-640x480-ring-8.anel");
+        assert_eq!(named(SaveKind::Film, true), "my-scene-3840x2160-ring-8.gif");
         assert_eq!(named(SaveKind::Large, false), "my-scene-3840x2160.png");
         assert_eq!(named(SaveKind::Timeline, true), "my-scene-640x480-ring-8-timeline.svg");
         assert_eq!(named(SaveKind::Bars, false), "my-scene-640x480-comparison.svg");
-        for kinds in [SaveKind::OF_RUN.concat(), SaveKind::OF_COMPARISON.concat()] {
-            let names: std::collections::BTreeSet<String> = kinds.iter().map(|kind| named(*kind, true)).collect();
-            assert_eq!(names.len(), kinds.len(), "file names differ");
+        for groups in [&SaveKind::OF_RUN[..], &SaveKind::OF_COMPARISON[..]] {
+            let kinds = || groups.iter().flat_map(|(_, kinds)| *kinds);
+            let names: std::collections::BTreeSet<String> = kinds().map(|kind| named(*kind, true)).collect();
+            assert_eq!(names.len(), kinds().count(), "file names differ");
         }
     }
 }

@@ -22,7 +22,7 @@ use crate::language::{Language, say, word};
 use crate::output::{check_writable, is_same_file};
 use crate::view::Layer;
 pub use film_options::FilmOptions;
-use kinds::SaveKind;
+use kinds::{KindGroup, SaveKind};
 use preview::Preview;
 use retraced::RetracedPicture;
 
@@ -132,8 +132,8 @@ impl SaveSheet {
             SaveSubject::Run(_) => &SaveKind::OF_RUN[..],
             SaveSubject::Comparison(_) => &SaveKind::OF_COMPARISON[..],
         };
-        if !kinds.iter().any(|group| group.contains(&self.kind)) {
-            self.choose(kinds[0][0]);
+        if !kinds.iter().any(|(_, group)| group.contains(&self.kind)) {
+            self.choose(kinds[0].1[0]);
         }
         self.heading(ui, language);
         self.kinds(ui, kinds, language);
@@ -142,6 +142,10 @@ impl SaveSheet {
         let foot = Panel::bottom("save foot").frame(egui::Frame::NONE).resizable(false).show_separator_line(false);
         let command = foot.show(ui, |ui| self.foot(ui, session, subject)).inner;
         ScrollArea::vertical().id_salt("save").auto_shrink(false).show(ui, |ui| self.content(ui, session, subject));
+        if self.suggestion(session).text() != self.suggested.text() {
+            // The path follows what was typed in the fields.
+            ui.ctx().request_repaint();
+        }
         command
     }
 
@@ -161,10 +165,13 @@ impl SaveSheet {
         });
     }
 
-    /// Shows a button for each kind, group by group.
-    fn kinds(&mut self, ui: &mut Ui, groups: &[&[SaveKind]], language: Language) {
+    /// Shows a button for each kind, group by group below its heading.
+    fn kinds(&mut self, ui: &mut Ui, groups: &[KindGroup], language: Language) {
         ui.spacing_mut().item_spacing.y = GRID / 2.0;
-        for group in groups {
+        let look = Look::of(ui.ctx());
+        for ((english, portuguese), group) in groups {
+            let heading = RichText::new(word!(language, *english, *portuguese));
+            ui.label(heading.font(theme::regular(theme::SMALL)).color(look.quiet));
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = egui::vec2(GRID / 2.0, GRID / 2.0);
                 for &kind in *group {
@@ -350,13 +357,26 @@ impl SaveSheet {
         }
     }
 
-    /// Updates the suggested path, unless the user has changed it.
-    fn suggest(&mut self, session: &Session) {
+    /// Returns the path to suggest now.
+    fn suggestion(&self, session: &Session) -> TypedPath {
+        let header = session.header();
         let done = session.stage().phase == Phase::Finished;
         let directory = std::env::current_dir().unwrap_or_default();
-        let name = self.kind.file_name(session.header(), done, &self.retraced.name(session));
-        let mut suggested = TypedPath::default();
-        suggested.set(directory.join(name));
+        let own = match self.kind {
+            SaveKind::Film => {
+                let [width, height] = self.film.film(Default::default()).size(header.size);
+                format!("{width}x{height}")
+            }
+            _ => self.retraced.name(session),
+        };
+        let mut path = TypedPath::default();
+        path.set(directory.join(self.kind.file_name(header, done, &own)));
+        path
+    }
+
+    /// Updates the suggested path, unless the user has changed it.
+    fn suggest(&mut self, session: &Session) {
+        let suggested = self.suggestion(session);
         if self.path.text() == self.suggested.text() && self.path.text() != suggested.text() {
             // Selects the new name.
             self.wants_focus |= self.focused;

@@ -2,11 +2,11 @@
 
 use egui::{Label, RichText, Ui};
 
-use super::kinds::{FOUR_K, MAX_SIDE_PX, has_same_shape, large};
+use super::kinds::{FOUR_K, FULL_HD, MAX_SIDE_PX, has_same_shape, large};
 use crate::gui::session::{PictureExport, Session};
 use crate::gui::widgets::path_input::path_field;
 use crate::gui::widgets::theme::{self, GRID, Look};
-use crate::gui::widgets::{Emphasis, button, number_field};
+use crate::gui::widgets::{Emphasis, button, live_number_field};
 use crate::language::{Language, word};
 use crate::picture::{Quality, Region};
 
@@ -43,12 +43,12 @@ impl RetracedPicture {
             let [across, down] =
                 word!(language, ["Pixels across", "Pixels down"], ["Pixels na horizontal", "Pixels na vertical"]);
             let [width, height] = &mut size;
-            number_field(ui, width, 1..=MAX_SIDE_PX, "", FIELD_WIDTH_PT, (across, language));
+            live_number_field(ui, width, 1..=MAX_SIDE_PX, "", FIELD_WIDTH_PT, (across, language));
             ui.label(quiet(ui, "×"));
-            number_field(ui, height, 1..=MAX_SIDE_PX, "", FIELD_WIDTH_PT, (down, language));
+            live_number_field(ui, height, 1..=MAX_SIDE_PX, "", FIELD_WIDTH_PT, (down, language));
             ui.label(quiet(ui, word!(language, "samples n × n:", "amostras n × n:")));
             let samples = word!(language, "Samples a pixel", "Amostras por pixel");
-            number_field(ui, &mut self.samples, 1..=16, "", 5.0 * GRID, (samples, language));
+            live_number_field(ui, &mut self.samples, 1..=16, "", 5.0 * GRID, (samples, language));
         });
         if size != self.size(session) {
             self.size = Some(size);
@@ -67,8 +67,8 @@ impl RetracedPicture {
 
     /// Shows a button for each usual size.
     fn sizes(&self, ui: &mut Ui, own: [u32; 2], size: &mut [u32; 2], language: Language) {
-        let usual =
-            [(word!(language, "Own size", "Seu tamanho"), own), ("× 2", own.map(|side| 2 * side)), ("4K", FOUR_K)];
+        let own_size = word!(language, "Own size", "Seu tamanho");
+        let usual = [(own_size, own), ("× 2", own.map(|side| 2 * side)), ("1080p", FULL_HD), ("4K", FOUR_K)];
         for (name, other) in usual {
             let emphasis = if *size == other { Emphasis::On } else { Emphasis::Quiet };
             let [width, height] = other;

@@ -3,15 +3,16 @@
 mod own_links;
 mod sharing;
 
-use egui::{ComboBox, Label, Popup, PopupCloseBehavior, RichText, ScrollArea, Ui, WidgetInfo};
+use egui::{ComboBox, Event, Key, Label, Popup, PopupCloseBehavior, RichText, ScrollArea, Ui, WidgetInfo};
 
 use crate::gui::session::Session;
 use crate::gui::settings::Settings;
+use crate::gui::settings::latency_steps::{next_latency, round_latency};
 use crate::gui::settings::pace::Pace;
 use crate::gui::settings::speed_preset::SpeedPreset;
 use crate::gui::settings::undo::Gesture;
 use crate::gui::widgets::explained::explained;
-use crate::gui::widgets::slider::{Scale, slider};
+use crate::gui::widgets::slider::{Scale, slider, wheel_steps};
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, choice_buttons, number_field, popup_frame};
 use crate::language::{Language, comma, say, word};
@@ -36,12 +37,19 @@ pub struct SetupPanel {
     pub open: bool,
     /// The settings with a change whose gesture has not ended.
     draft: Option<Settings>,
+    /// When the gesture of the wheel or of the arrow keys ends, by egui's clock in seconds.
+    ends_at: f64,
+    /// Whether the panel scrolls, so that the wheel does not change a number under the mouse.
+    scrolls: bool,
 }
+
+/// Seconds after the last step of the wheel or of an arrow key until its change restarts the run.
+const STEPS_END_S: f64 = 0.4;
 
 impl SetupPanel {
     /// Creates the panel, open or closed.
     pub fn new(open: bool) -> Self {
-        Self { open, draft: None }
+        Self { open, draft: None, ends_at: 0.0, scrolls: false }
     }
 
     /// Shows the panel.
@@ -53,14 +61,15 @@ impl SetupPanel {
         }
         let mut is_demonstration = false;
         let mut draft = self.draft.take().unwrap_or_else(|| session.settings().clone());
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let (takes_wheel, before) = (!self.scrolls, draft.clone());
+        let area = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_width(ui.available_width() - GRID);
             // With these distances everything is visible in a window of 1280 × 800.
             ui.spacing_mut().item_spacing.y = 2.0;
             ui.spacing_mut().interact_size.y = 3.5 * GRID;
-            machines(ui, &mut draft, look, language);
+            machines(ui, &mut draft, takes_wheel, look, language);
             ui.add_space(0.5 * GRID);
-            network(ui, &mut draft, look, language);
+            network(ui, &mut draft, takes_wheel, look, language);
             ui.add_space(0.5 * GRID);
             let restarts = word!(language, "restarts the run", "reinicia a execução");
             heading(ui, word!(language, "The picture", "A imagem"), restarts, look);
@@ -78,11 +87,17 @@ impl SetupPanel {
             );
             is_demonstration = button(ui, None, name, true, Emphasis::Quiet).on_hover_text(hint).clicked();
         });
+        self.scrolls = area.content_size.y > area.inner_rect.height() + 1.0;
         if is_demonstration {
             return session.show_demonstration();
         }
         // A change that needs a restart waits for the end of its gesture.
-        let is_busy = ui.input(|input| input.pointer.any_down()) || ui.ctx().egui_wants_keyboard_input();
+        let now = ui.input(|input| input.time);
+        if draft != before && ui.input(|input| input.events.iter().any(is_step)) {
+            self.ends_at = now + STEPS_END_S;
+            ui.ctx().request_repaint_after_secs(STEPS_END_S as f32);
+        }
+        let is_busy = ui.input(|input| input.pointer.any_down()) || now < self.ends_at;
         if is_busy && draft.needs_restart(session.settings()) {
             self.draft = Some(draft);
         } else if draft != *session.settings() {
@@ -90,6 +105,17 @@ impl SetupPanel {
             let gesture = if of(&draft) == of(session.settings()) { Gesture::Once } else { Gesture::Latency };
             session.change(gesture, |settings| *settings = draft);
         }
+    }
+}
+
+/// Whether this is a step of the wheel or of an arrow key, which others may follow.
+fn is_step(event: &Event) -> bool {
+    match event {
+        Event::MouseWheel { .. } => true,
+        Event::Key { key, pressed, .. } => {
+            *pressed && matches!(key, Key::ArrowUp | Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight)
+        }
+        _ => false,
     }
 }
 
@@ -122,7 +148,7 @@ fn recorded(ui: &mut Ui, session: &mut Session, look: Look) {
 const VALUE_WIDTH_PT: f32 = 12.0 * GRID;
 
 /// Shows the settings of the machines: their speeds, their number, and how they share the work.
-fn machines(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
+fn machines(ui: &mut Ui, draft: &mut Settings, takes_wheel: bool, look: Look, language: Language) {
     let (name, at_once) =
         word!(language, ("Machines", "speeds at once, rest restarts"), ("Máquinas", "velocidade já, resto reinicia"));
     heading(ui, name, at_once, look);
@@ -152,43 +178,58 @@ fn machines(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
             draft.set_preset(SpeedPreset::Random);
         }
     });
-    number_of_machines(ui, draft, look, language);
+    number_of_machines(ui, draft, takes_wheel, look, language);
     sharing::sharing(ui, draft, look, language);
 }
 
 /// Shows the settings of the network: latency, the parent's time for a message, and bandwidth.
-fn network(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    let width = ui.available_width();
+fn network(ui: &mut Ui, draft: &mut Settings, takes_wheel: bool, look: Look, language: Language) {
+    let (width, max) = (ui.available_width(), Settings::MAX_LATENCY_MS);
     let (name, at_once) =
         word!(language, ("Network", "latency at once, rest restarts"), ("Rede", "latência já, resto reinicia"));
     heading(ui, name, at_once, look);
     let hop = word!(language, "Latency of a hop", "Latência de um salto");
+    let mut steps = 0;
     labelled_row(ui, (hop, Definition::LATENCY, language), look, |ui| {
-        let name = word!(language, "Latency in milliseconds", "Latência em milissegundos");
-        number_field(ui, &mut draft.latency, 0.0..=Settings::MAX_LATENCY_MS, " ms", VALUE_WIDTH_PT, (name, language));
+        let (name, all) = (word!(language, "Latency in milliseconds", "Latência em milissegundos"), 0.0..=max);
+        let field = number_field(ui, &mut draft.latency, all, " ms", VALUE_WIDTH_PT, (name, language));
+        if field.dragged() {
+            draft.latency = round_latency(draft.latency);
+        }
+        steps += wheel_steps(ui, &field);
     });
     // A square root, because latencies below half a second matter most.
     let mut root = draft.latency.sqrt();
-    let max = Settings::MAX_LATENCY_MS.sqrt();
     let name = word!(language, "Latency slider", "Controle da latência");
-    if slider(ui, &mut root, Scale::Linear(0.0, max), width - GRID, look.accent, name).changed() {
-        draft.latency = (root * root).round();
+    let bar = slider(ui, &mut root, Scale::Linear(0.0, max.sqrt()), width - GRID, look.accent, name);
+    steps += wheel_steps(ui, &bar);
+    let presses = |key| ui.input(|input| input.num_presses(key) as i32);
+    let keys = if bar.has_focus() { presses(Key::ArrowRight) - presses(Key::ArrowLeft) } else { 0 };
+    if keys != 0 || steps != 0 && takes_wheel {
+        let steps = keys + if takes_wheel { steps } else { 0 };
+        let stepped = (0..steps.abs()).fold(draft.latency, |latency, _| next_latency(latency, steps > 0));
+        draft.latency = stepped.min(max);
+    } else if bar.changed() {
+        draft.latency = round_latency(root * root);
     }
     sharing::network(ui, draft, look, language);
 }
 
 /// Shows the number of machines.
-fn number_of_machines(ui: &mut Ui, draft: &mut Settings, look: Look, language: Language) {
-    let width = ui.available_width();
+fn number_of_machines(ui: &mut Ui, draft: &mut Settings, takes_wheel: bool, look: Look, language: Language) {
+    let (width, max) = (ui.available_width(), Settings::MAX_NODES as u32);
     let mut nodes = draft.speeds.len() as u32;
+    let mut steps = 0;
     labelled_row(ui, (word!(language, "How many", "Quantas"), Definition::MACHINE, language), look, |ui| {
         let name = word!(language, "Number of machines", "Número de máquinas");
-        number_field(ui, &mut nodes, 1..=Settings::MAX_NODES as u32, "", VALUE_WIDTH_PT, (name, language));
+        let field = number_field(ui, &mut nodes, 1..=max, "", VALUE_WIDTH_PT, (name, language));
+        steps += wheel_steps(ui, &field);
     });
     let mut dragged = f64::from(nodes);
     let name = word!(language, "Machines slider", "Controle das máquinas");
-    slider(ui, &mut dragged, Scale::Whole(1.0, Settings::MAX_NODES as f64), width - GRID, look.accent, name);
-    nodes = dragged as u32;
+    let bar = slider(ui, &mut dragged, Scale::Whole(1.0, f64::from(max)), width - GRID, look.accent, name);
+    steps += wheel_steps(ui, &bar);
+    nodes = (dragged as u32).saturating_add_signed(if takes_wheel { steps } else { 0 }).clamp(1, max);
     if nodes as usize != draft.speeds.len() {
         draft.set_nodes(nodes as usize);
     }

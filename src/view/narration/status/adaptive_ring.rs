@@ -181,7 +181,7 @@ mod tests {
         );
         assert_eq!(
             status_with(without(Remedy::Leases), &[0, 9, 0], &[0, 2], &[off], language),
-            "The run hangs because 2 is off: without leases this ring cannot recover"
+            "The run hangs because 2 is off and 9 atoms are lost: without leases this ring cannot recover"
         );
     }
 }

@@ -7,6 +7,15 @@ use crate::view::state::node_state::NodeState;
 use crate::view::state::run_state::RunState;
 use crate::view::text::format::{atoms_words, names};
 
+/// Returns the scheduler whose ring or farm would have recovered, if a run hangs for ever after a failure.
+pub fn recovering_scheduler(state: &RunState) -> Option<Scheduler> {
+    if state.has(Remedy::Leases) || deadlock_words(state, Language::English).is_none() {
+        return None;
+    }
+    let strategy = if state.scheduler.is_farm() { Strategy::FarmLeases } else { Strategy::Adaptive };
+    Some(Scheduler::Protocol(strategy))
+}
+
 /// Explains why a run hangs after a failure; `None` if the run may still go on.
 pub(crate) fn deadlock_words(state: &RunState, language: Language) -> Option<String> {
     let answers = |party: Party| match party {
@@ -45,6 +54,16 @@ pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<Stri
     let failed: Vec<NodeId> = (0..).zip(state.nodes()).filter_map(failed).collect();
     let lost = state.atom_states().iter().filter(|place| **place == AtomState::Lost).count() as u32;
     let who = names(&failed, language);
+    // With leases the parent hands them out again.
+    let is_lost = lost > 0 && !state.has(Remedy::Leases);
+    let with_lost = |who: String| {
+        let atoms = atoms_words(lost, language);
+        match lost {
+            _ if !is_lost => who,
+            1 => say!(language, "{who} and {atoms} is lost", "{who}, {atoms} perdido"),
+            _ => say!(language, "{who} and {atoms} are lost", "{who}, {atoms} perdidos"),
+        }
+    };
     match *failed {
         [] if lost == 0 => None,
         [] => {
@@ -54,12 +73,12 @@ pub(crate) fn failure_words(state: &RunState, language: Language) -> Option<Stri
                 _ => say!(language, "{atoms} were lost", "{atoms} se perderam"),
             })
         }
-        [node] => Some(match state.nodes()[usize::from(node)].condition {
+        [node] => Some(with_lost(match state.nodes()[usize::from(node)].condition {
             Condition::Hung => say!(language, "{who} hangs", "{who} travou"),
             Condition::CutOff => say!(language, "{who} is cut off", "{who} está isolada"),
             Condition::Off | Condition::Well => say!(language, "{who} is off", "{who} está desligada"),
-        }),
-        _ => Some(say!(language, "{who} have failed", "{who} falharam")),
+        })),
+        _ => Some(with_lost(say!(language, "{who} have failed", "{who} falharam"))),
     }
 }
 
@@ -77,13 +96,13 @@ fn recovery_words(state: &RunState, language: Language) -> &'static str {
         word!(
             language,
             "this farm cannot recover, the farm with leases can",
-            "esta divisão dinâmica não se recupera, a com prazos sim"
+            "esta dinâmica não se recupera, a com prazos sim"
         )
     } else {
         word!(
             language,
             "the adaptive ring and the farm with leases can recover",
-            "o anel adaptativo e a dinâmica com prazos se recuperam"
+            "o adaptativo e a dinâmica com prazos se recuperam"
         )
     }
 }

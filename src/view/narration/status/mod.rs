@@ -1,7 +1,7 @@
 //! Status of a run between events, by strategy: who computes, who is slow, and why the ring cannot help.
 
 mod adaptive_ring;
-mod deadlock;
+pub mod deadlock;
 mod farm_leases;
 pub mod incomplete;
 mod phrases;

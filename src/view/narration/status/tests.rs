@@ -1,14 +1,16 @@
 //! Tests of the status of the article's ring, and of runs that hang.
 
-use super::deadlock::deadlock_words;
+use super::deadlock::{deadlock_words, recovering_scheduler};
 use super::incomplete::unfinished_words;
 use super::status_sentence;
-use crate::balance::{Condition, Message, NodeId, Party, Strategy};
+use crate::balance::{Condition, Message, NodeId, Party, Scheduler, Strategy};
 use crate::language::Language;
 use crate::record::{Record, RecordKind};
 use crate::scenario::Command;
 use crate::sim::Sim;
 use crate::time::Time;
+use crate::view::state::atom_state::AtomState;
+use crate::view::state::node_rows::node_rows;
 use crate::view::state::run_state::RunState;
 use crate::view::tests::sample_runs;
 
@@ -164,7 +166,13 @@ fn run_that_hangs_says_why_and_which_strategy_recovers() {
         [(Condition::Off, "2 is off"), (Condition::Hung, "2 hangs"), (Condition::CutOff, "2 is cut off")]
     {
         let state = end(Strategy::Ring, condition, language);
+        let lost = state.atom_states().iter().filter(|place| **place == AtomState::Lost).count();
+        let why = if lost > 0 { format!("{why} and {lost} atoms are lost") } else { why.to_owned() };
         assert_eq!(status_sentence(&state, language), format!("The run hangs because {why}: {remedy}"));
+        assert_eq!(recovering_scheduler(&state), Some(Scheduler::Protocol(Strategy::Adaptive)));
+        let rows = node_rows(&state, state.head());
+        // Atoms in messages are lost too.
+        assert_eq!((rows[1].lost > 0, rows[1].lost as usize <= lost), (condition == Condition::Off, true));
         let words = unfinished_words(&state, language);
         assert!(
             words.starts_with("The record ends here, with ") && words.ends_with(&format!("{why}; {remedy}")),
@@ -172,9 +180,11 @@ fn run_that_hangs_says_why_and_which_strategy_recovers() {
         );
     }
     let words = status_sentence(&end(Strategy::Static, Condition::Off, language), language);
-    assert_eq!(words, "The run hangs because 2 is off: the adaptive ring and the farm with leases can recover");
-    let words = status_sentence(&end(Strategy::Farm, Condition::Off, language), language);
-    assert_eq!(words, "The run hangs because 2 is off: this farm cannot recover, the farm with leases can");
+    assert!(words.ends_with("atoms are lost: the adaptive ring and the farm with leases can recover"), "{words}");
+    let state = end(Strategy::Farm, Condition::Off, language);
+    let words = status_sentence(&state, language);
+    assert!(words.ends_with(": this farm cannot recover, the farm with leases can"), "{words}");
+    assert_eq!(recovering_scheduler(&state), Some(Scheduler::Protocol(Strategy::FarmLeases)));
     for strategy in [Strategy::FarmLeases, Strategy::Adaptive] {
         assert!(end(strategy, Condition::Off, language).finished().is_some());
     }
