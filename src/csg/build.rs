@@ -39,7 +39,7 @@ impl Tree {
         let (operation, operands) = match outline.kind {
             OutlineKind::Leaf(leaf) => {
                 let index = LeafIndex(self.leaves.len() as u32);
-                self.leaves.push(leaf);
+                self.leaves.push(*leaf);
                 return Some((self.push(NodeKind::Leaf(index), within.bounds), within.bounds));
             }
             OutlineKind::Composition(operation, operands) => (operation, operands),

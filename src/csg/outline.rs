@@ -15,7 +15,7 @@ pub(super) struct Outline {
 }
 
 pub(super) enum OutlineKind {
-    Leaf(Leaf),
+    Leaf(Box<Leaf>),
     Composition(Operation, Vec<Outline>),
 }
 
@@ -25,7 +25,7 @@ impl Outline {
             Solid::Placed { primitive, scene_from_local, tag } => {
                 let (leaf, bounds) = Leaf::new(primitive, scene_from_local, *tag, passes.has(Pass::SceneShapes));
                 let extent = Extent::of_primitive(primitive, scene_from_local, bounds);
-                return Self { extent, upper: None, kind: OutlineKind::Leaf(leaf) };
+                return Self { extent, upper: None, kind: OutlineKind::Leaf(Box::new(leaf)) };
             }
             Solid::Union(solids) => (Operation::Union, solids),
             Solid::Intersection(solids) => (Operation::Intersection, solids),

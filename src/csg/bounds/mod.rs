@@ -55,7 +55,7 @@ impl Extent {
                 extent.planes.add(Plane::placed(*normal, *offset, scene_from_local));
             }
             Primitive::Quadric(coefficients) => {
-                extent.quadrics.push(Quadric::new(coefficients, scene_from_local));
+                extent.add_quadric(Quadric::new(coefficients, scene_from_local));
             }
             _ => {}
         }
@@ -66,7 +66,13 @@ impl Extent {
     pub fn add(&mut self, other: &Self) {
         self.bounds = self.bounds.intersection(other.bounds);
         self.planes.extend(&other.planes);
-        self.quadrics.extend(other.quadrics.iter().take(MAX_QUADRICS.saturating_sub(self.quadrics.len())).cloned());
+        other.quadrics.iter().for_each(|quadric| self.add_quadric(quadric.clone()));
+    }
+
+    fn add_quadric(&mut self, quadric: Quadric) {
+        if self.quadrics.len() < MAX_QUADRICS {
+            self.quadrics.push(quadric);
+        }
     }
 
     /// Adds that this solid lies outside of `solid`, as far as that bounds it.
@@ -76,9 +82,7 @@ impl Extent {
                 self.planes.add(Plane::placed(*normal, *offset, scene_from_local).flipped());
             }
             Solid::Placed { primitive: Primitive::Quadric(coefficients), scene_from_local, .. } => {
-                if self.quadrics.len() < MAX_QUADRICS {
-                    self.quadrics.push(Quadric::new(coefficients, scene_from_local).flipped());
-                }
+                self.add_quadric(Quadric::new(coefficients, scene_from_local).flipped());
             }
             Solid::Union(solids) => solids.iter().for_each(|solid| self.add_outside(solid)),
             _ => {}
