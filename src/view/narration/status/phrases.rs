@@ -35,6 +35,7 @@ pub(crate) fn last_computing((node, last): Machine<'_>, language: Language) -> S
 /// Says how many of all machines or threads compute.
 pub(crate) fn computing(some: usize, all: usize, what: &str, language: Language) -> String {
     match some {
+        1 if all == 1 => word!(language, "The only one computes", "A única calcula").into(),
         _ if some == all => say!(language, "All {all} {what} compute", "Todas as {all} {what} calculam"),
         1 => say!(language, "1 of {all} {what} computes", "1 de {all} {what} calcula"),
         _ => say!(language, "{some} of {all} {what} compute", "{some} de {all} {what} calculam"),
