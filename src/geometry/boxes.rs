@@ -2,8 +2,8 @@
 //!
 //! A test looks at as many boxes as the processor's vectors hold; which it has is asked when the program runs (Wald,
 //! Benthin and Boulos, *Getting Rid of Packets*, 2008). The boxes and a copy of the ray are in single precision, and
-//! the boxes are larger by more than all rounding. What they contain is tested in double precision: so they save work, and
-//! never decide about a hit.
+//! the boxes are larger by more than all rounding. What they contain is tested in double precision: so they save work,
+//! and never decide about a hit.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f32x8};
