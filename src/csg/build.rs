@@ -24,18 +24,18 @@ impl Tree {
         self.add_node(outline, &Extent::ALL).map(|(node, bounds)| (RootId(node.0), bounds))
     }
 
-    /// Adds a solid of which only the part within `around` matters: elsewhere it may miss parts, of which some are
-    /// missing in what is subtracted.
+    /// Adds a solid that has to be right within `around` only.
     fn add_node(&mut self, outline: Outline, around: &Extent) -> Option<(NodeIndex, Aabb)> {
-        // Outside of what contains the solid without subtractions no operand matters: one of them is missing for sure.
-        let mut inner = outline.upper.as_ref().unwrap_or(&outline.extent).clone();
-        let mut within = outline.extent;
-        if self.passes.has(Pass::FoundBounds) {
-            within.add(around);
-            within.close();
-            inner.add(around);
-            inner.close();
-        }
+        let finds_bounds = self.passes.has(Pass::FoundBounds);
+        let narrowed = |mut extent: Extent| {
+            if finds_bounds {
+                extent.add(around);
+                extent.close();
+            }
+            extent
+        };
+        let upper = outline.upper.unwrap_or_else(|| outline.extent.clone());
+        let within = narrowed(outline.extent);
         let (operation, operands) = match outline.kind {
             OutlineKind::Leaf(leaf) => {
                 let index = LeafIndex(self.leaves.len() as u32);
@@ -46,10 +46,11 @@ impl Tree {
         };
         let mut children: Vec<NodeIndex> = Vec::new();
         let mut bounds = if operation == Operation::Intersection { within.bounds } else { Aabb::EMPTY };
-        // A union's operands matter wherever each of them is.
-        let around = if operation == Operation::Union { around } else { &inner };
+        // A union's operands matter wherever each of them is. Other operands matter only within the extent without
+        // subtractions: elsewhere one of them is missing.
+        let inner = if operation == Operation::Union { around.clone() } else { narrowed(upper) };
         for (index, operand) in operands.into_iter().enumerate() {
-            let child = self.add_node(operand, around);
+            let child = self.add_node(operand, &inner);
             match operation {
                 Operation::Union => {
                     let Some((child, child_bounds)) = child else { continue };

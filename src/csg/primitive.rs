@@ -1,6 +1,6 @@
 //! The primitives: solids that are not composed of others.
 
-use glam::DVec3;
+use glam::{DAffine3, DMat3, DVec3};
 
 use super::torus;
 
@@ -47,6 +47,25 @@ pub struct QuadricCoefficients {
     pub linear: DVec3,
     /// The constant term.
     pub constant: f64,
+}
+
+impl QuadricCoefficients {
+    /// The symmetric matrix of the squares and products.
+    pub(super) fn square(&self) -> DMat3 {
+        let [xy, yz, zx] = (self.products / 2.0).to_array();
+        DMat3::from_cols(
+            DVec3::new(self.squares.x, xy, zx),
+            DVec3::new(xy, self.squares.y, yz),
+            DVec3::new(zx, yz, self.squares.z),
+        )
+    }
+}
+
+/// Carries the half-space `normal · p ≤ offset` to the scene. Returns its normal, of length 1, and its offset there.
+pub(super) fn carry_half_space(normal: DVec3, offset: f64, local_from_scene: &DAffine3) -> (DVec3, f64) {
+    let carried = local_from_scene.matrix3.transpose() * normal;
+    let length = carried.length();
+    (carried / length, (offset - normal.dot(local_from_scene.translation)) / length)
 }
 
 impl Primitive {

@@ -3,6 +3,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::primitive::carry_half_space;
 use super::quadratic::Intervals;
 use super::span::{BOTTOM_CAP, CURVED, Spans};
 use super::torus;
@@ -111,9 +112,7 @@ impl Leaf {
                 }
             },
             Primitive::HalfSpace { normal, offset } => {
-                let carried = to_local.transpose() * normal;
-                let length = carried.length();
-                let (normal, offset) = (carried / length, (offset - normal.dot(local_from_scene.translation)) / length);
+                let (normal, offset) = carry_half_space(normal, offset, &local_from_scene);
                 (Shape::HalfSpace { normal, offset }, half_space_bounds(normal, offset))
             }
             Primitive::Cube => {
@@ -140,12 +139,7 @@ impl Leaf {
                 (Shape::Torus { frame: frame(), tube }, about(round(x, z) + ball))
             }
             Primitive::Quadric(q) => {
-                let [xy, yz, zx] = (q.products / 2.0).to_array();
-                let square = DMat3::from_cols(
-                    DVec3::new(q.squares.x, xy, zx),
-                    DVec3::new(xy, q.squares.y, yz),
-                    DVec3::new(zx, yz, q.squares.z),
-                );
+                let square = q.square();
                 let shape = Shape::Quadric {
                     centre,
                     square: to_local.transpose() * square * to_local,
@@ -303,7 +297,7 @@ impl Leaf {
             Shape::Torus { frame, .. } => {
                 let q = frame.point_to_local(point);
                 // The direction from the nearest point of the circle.
-                let outward = 1.0 - 1.0 / (q.x * q.x + q.z * q.z).sqrt();
+                let outward = 1.0 - 1.0 / torus::axis_distance(q);
                 frame.normal_to_scene(DVec3::new(q.x * outward, q.y, q.z * outward))
             }
             Shape::Quadric { centre, square, half_linear, .. } => {

@@ -39,7 +39,8 @@ pub(super) fn implicit(tube: f64, q: DVec3) -> f64 {
     from_ring * from_ring + q.y * q.y - tube * tube
 }
 
-fn axis_distance(q: DVec3) -> f64 {
+/// Computes the distance of a point from the y axis.
+pub(super) fn axis_distance(q: DVec3) -> f64 {
     (q.x * q.x + q.z * q.z).sqrt()
 }
 

@@ -24,7 +24,6 @@ pub struct BoxFrame {
     centre: DVec3,
     /// The greatest distance of a side from the centre.
     half: f64,
-    level: Level,
 }
 
 /// Up to eight boxes, by axis and then by number.
@@ -39,7 +38,6 @@ pub struct Boxes {
 /// A ray in single precision, for tests of boxes in one frame.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxRay {
-    level: Level,
     /// The distance along the ray at which its copy starts: near the centre, where coordinates are small.
     skipped: f64,
     origin: [f32; 3],
@@ -53,7 +51,7 @@ impl BoxFrame {
         let bounds = if is_usable { bounds } else { Aabb { min: DVec3::ZERO, max: DVec3::ZERO } };
         let (centre, half) = (bounds.centre(), ((bounds.max - bounds.min) * 0.5).max_element());
         // Of a box that is smaller than rounding at its place, the coordinates would be noise.
-        Self { centre, half: fast_max(half, 1e-9 * centre.length()), level: Level::baseline() }
+        Self { centre, half: fast_max(half, 1e-9 * centre.length()) }
     }
 
     /// The copy of a ray.
@@ -67,7 +65,7 @@ impl BoxFrame {
             .inverse_direction
             .to_array()
             .map(|inverse| fast_min(fast_max(inverse, -MAX_INVERSE), MAX_INVERSE) as f32);
-        BoxRay { level: self.level, skipped, origin: origin.as_vec3().to_array(), inverse }
+        BoxRay { skipped, origin: origin.as_vec3().to_array(), inverse }
     }
 }
 
@@ -97,7 +95,13 @@ impl BoxRay {
     /// each of them.
     #[inline(always)]
     pub fn meets(&self, boxes: &Boxes, range: [f32; 2], entry: &mut [f32; WIDTH]) -> u64 {
-        dispatch!(self.level, simd => meets(simd, self, boxes, range, entry)) & boxes.present
+        self.meets_at(Level::baseline(), boxes, range, entry)
+    }
+
+    /// Does the same in vectors of the processor's `level`.
+    #[inline(always)]
+    fn meets_at(&self, level: Level, boxes: &Boxes, range: [f32; 2], entry: &mut [f32; WIDTH]) -> u64 {
+        dispatch!(level, simd => meets(simd, self, boxes, range, entry)) & boxes.present
     }
 
     /// A distance along the ray as a place, which is relative to the start of the ray's copy. Its rounding is less than
@@ -158,12 +162,12 @@ mod tests {
                 .collect();
             let all = bounds.iter().fold(Aabb::EMPTY, |all, &one| all.union(one));
             for level in [Level::new(), Level::baseline()] {
-                let frame = BoxFrame { level, ..BoxFrame::new(all) };
+                let frame = BoxFrame::new(all);
                 let mut boxes = Boxes::NONE;
                 bounds.iter().for_each(|&one| boxes.add(one, &frame));
                 let mut entry = [0.0; WIDTH];
                 let single = frame.ray(&ray);
-                let met = single.meets(&boxes, range.map(|t| single.place(t)), &mut entry);
+                let met = single.meets_at(level, &boxes, range.map(|t| single.place(t)), &mut entry);
                 for (place, one) in bounds.iter().enumerate() {
                     if one.entry(&ray, range[0], range[1]).is_some() {
                         prop_assert!(met >> place & 1 == 1, "box {} of {:?}", place, one);

@@ -15,7 +15,7 @@
 mod polyhedron;
 mod quadric;
 
-use glam::{DAffine3, DVec3};
+use glam::DAffine3;
 
 use self::polyhedron::{Plane, Polyhedron};
 use self::quadric::Quadric;
@@ -141,12 +141,9 @@ impl Extent {
     }
 }
 
-/// The directions of the axes of a scene.
-const AXES: [DVec3; 3] = DVec3::AXES;
-
 #[cfg(test)]
 mod tests {
-    use glam::DMat3;
+    use glam::{DMat3, DVec3};
     use proptest::prelude::*;
 
     use super::*;

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::AXES;
+use crate::csg::primitive::carry_half_space;
 use crate::geometry::Aabb;
 
 /// All points with `normal · p ≤ offset`; `normal` has length 1.
@@ -22,10 +22,8 @@ const MAX_PLANES: usize = 40;
 impl Plane {
     /// The half-space `normal · p ≤ offset`, carried by a map.
     pub fn placed(normal: DVec3, offset: f64, scene_from_local: &DAffine3) -> Self {
-        let local_from_scene = scene_from_local.inverse();
-        let carried = local_from_scene.matrix3.transpose() * normal;
-        let length = carried.length();
-        Self { normal: carried / length, offset: (offset - normal.dot(local_from_scene.translation)) / length }
+        let (normal, offset) = carry_half_space(normal, offset, &scene_from_local.inverse());
+        Self { normal, offset }
     }
 
     /// The other side of the plane.
@@ -73,7 +71,7 @@ impl Polyhedron {
 
     /// Adds the finite sides of a box.
     pub fn add_box(&mut self, bounds: Aabb) {
-        for (axis, normal) in AXES.into_iter().enumerate() {
+        for (axis, normal) in DVec3::AXES.into_iter().enumerate() {
             let sides = [(normal, bounds.max[axis]), (-normal, -bounds.min[axis])];
             self.add_all(
                 sides.into_iter().filter(|(_, offset)| offset.is_finite()).map(|(n, o)| Plane { normal: n, offset: o }),
@@ -84,7 +82,7 @@ impl Polyhedron {
     /// A box around the polyhedron; infinite where the polyhedron is.
     pub fn bounds(&self, reach: f64) -> Aabb {
         let along = |direction: DVec3| self.support(direction, reach);
-        Aabb { min: AXES.map(|axis| -along(-axis)).into(), max: AXES.map(along).into() }
+        Aabb { min: DVec3::AXES.map(|axis| -along(-axis)).into(), max: DVec3::AXES.map(along).into() }
     }
 
     /// The greatest `direction · p` of the polyhedron's points, or more; infinite if it has no bound. `direction` has

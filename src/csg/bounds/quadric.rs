@@ -2,7 +2,6 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::AXES;
 use super::polyhedron::{Plane, Polyhedron};
 use crate::csg::QuadricCoefficients;
 use crate::geometry::Aabb;
@@ -24,15 +23,9 @@ const RELATIVE_ROUNDING: f64 = 1e-12;
 impl Quadric {
     pub fn new(q: &QuadricCoefficients, scene_from_local: &DAffine3) -> Self {
         let to_local = scene_from_local.inverse().matrix3;
-        let [xy, yz, zx] = (q.products / 2.0).to_array();
-        let square = DMat3::from_cols(
-            DVec3::new(q.squares.x, xy, zx),
-            DVec3::new(xy, q.squares.y, yz),
-            DVec3::new(zx, yz, q.squares.z),
-        );
         Self::of(
             scene_from_local.translation,
-            to_local.transpose() * square * to_local,
+            to_local.transpose() * q.square() * to_local,
             to_local.transpose() * q.linear / 2.0,
             q.constant,
         )
@@ -121,7 +114,7 @@ impl Quadric {
         let inverse = self.square.inverse();
         let middle = -(inverse * self.half_linear);
         let squared = -self.constant - self.half_linear.dot(middle);
-        let half = AXES.map(|axis| (squared.max(0.0) * axis.dot(inverse * axis)).sqrt());
+        let half = DVec3::AXES.map(|axis| (squared.max(0.0) * axis.dot(inverse * axis)).sqrt());
         let (middle, half) = (self.centre + middle, DVec3::from(half) * (1.0 + MIN_RATIO));
         Some(Aabb { min: middle - half, max: middle + half })
     }
