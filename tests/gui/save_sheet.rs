@@ -30,7 +30,9 @@ fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
     escape(&mut window);
     let path = save(&mut window, "huge.png");
     press(&mut window, "Own size");
-    assert!(window.query_by_label_contains("The shape differs from the picture's").is_none());
+    until(&mut window, "its own shape", |window| {
+        window.query_by_label_contains("The shape differs from the picture's").is_none()
+    });
     press(&mut window, "4K");
     window.get_by_label_contains("The shape differs from the picture's");
     for (side, pixels) in [("Pixels across", "3840"), ("Pixels down", "2160")] {
