@@ -4,6 +4,7 @@ use egui::{Popup, PopupCloseBehavior, Response, Role, Sense, Ui, WidgetInfo, pos
 
 use super::keys::UserCommand;
 use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::steady;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, hint_above, popup_frame};
 use crate::language::{Language, say, word};
@@ -16,7 +17,7 @@ pub fn show(ui: &mut Ui, rate: f64, language: Language) -> Option<UserCommand> {
     if hint_above(slower, word!(language, "Slower time (,)", "Tempo mais lento (,)")).clicked() {
         pressed = Some(UserCommand::Rate(false));
     }
-    let (rect, response) = ui.allocate_exact_size(vec2(11.5 * GRID, 4.0 * GRID), Sense::click());
+    let (rect, response) = steady::allocate_size(ui, vec2(11.5 * GRID, 4.0 * GRID), "rate", Sense::click());
     let rate_text = rate_of_time_words(rate, language);
     let name = say!(language, "Time goes {rate_text}", "O tempo passa {rate_text}");
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));

@@ -16,6 +16,7 @@ use crate::gui::widgets::canvas_texture::CanvasTexture;
 use crate::gui::widgets::icons::{self, Icon};
 use crate::gui::widgets::picture_view::PictureView;
 use crate::gui::widgets::slider::{Scale, slider};
+use crate::gui::widgets::steady;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::picture::Atom;
@@ -78,7 +79,7 @@ impl PicturePanel {
         let fit = (room.x / size.x).min(room.y / size.y);
         let slack = (room - size * fit).max(Vec2::ZERO);
         let frame = Rect::from_min_size(ui.cursor().min + slack / 2.0, size * fit);
-        let response = ui.allocate_rect(frame, Sense::click_and_drag());
+        let response = steady::allocate_rect(ui, frame, "picture", Sense::click_and_drag());
         let moves = self.moves_camera || response.dragged_by(PointerButton::Secondary);
         if !moves {
             self.zoom_and_pan(ui, &response, size, frame);

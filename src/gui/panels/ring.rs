@@ -10,6 +10,7 @@ use crate::gui::session::Session;
 use crate::gui::widgets;
 use crate::gui::widgets::explained::explain_at;
 use crate::gui::widgets::paint::{Inks, paint};
+use crate::gui::widgets::steady;
 use crate::gui::widgets::theme::{self, Look};
 use crate::language::{say, word};
 use crate::view::{
@@ -21,7 +22,7 @@ use crate::view::{
 /// tooltip describes what is under the pointer.
 pub fn show(ui: &mut Ui, session: &mut Session, selection: &mut Selection, highlight: &Highlight) {
     let language = session.language();
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click());
+    let (rect, response) = steady::allocate_size(ui, ui.available_size(), "ring", Sense::click());
     let (stage, now) = (session.stage(), session.now());
     let state = stage.state();
     widgets::describe(&response, word!(language, "The ring", "O anel"), || {

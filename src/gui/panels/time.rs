@@ -11,6 +11,7 @@ use crate::gui::input::keys::UserCommand;
 use crate::gui::input::rate_menu;
 use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets::icons::Icon;
+use crate::gui::widgets::steady;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{Emphasis, button, cycle, hint_above, named_button, popup_frame};
 use crate::language::{Language, say, word};
@@ -92,7 +93,7 @@ impl TimePanel {
                 }
                 pressed = pressed.or(live(ui, session.stage(), look, language));
                 ui.add_space(GRID);
-                let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+                let (rect, response) = steady::allocate_size(ui, ui.available_size(), "time", Sense::click_and_drag());
                 pressed = pressed.or(arrow_keys(ui, &response, self.step));
                 line(ui, rect, response, session, look);
             });

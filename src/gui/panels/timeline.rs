@@ -9,6 +9,7 @@ use crate::gui::session::{Phase, Session, Stage};
 use crate::gui::widgets;
 use crate::gui::widgets::explained::explain_at;
 use crate::gui::widgets::paint::{Inks, quads};
+use crate::gui::widgets::steady;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::language::{Language, say, word};
 use crate::palette::text_on;
@@ -83,7 +84,7 @@ impl TimelinePanel {
         let left = if has_sliders { HEAD_WIDTH_PT } else { NARROW_HEAD_PT };
         let lanes = area.with_min_x(area.left() + left);
         let layout = TimelineLayout::new(nodes, lanes.width(), lanes.height());
-        let response = ui.allocate_rect(lanes, Sense::click_and_drag());
+        let response = steady::allocate_rect(ui, lanes, "lanes", Sense::click_and_drag());
         self.window.fit(session.stage().shown_length());
         self.follow(session.stage());
         zoom_and_pan(&mut self.window, ui, &response, lanes);

@@ -9,6 +9,7 @@ pub mod path_input;
 pub mod picture_view;
 pub mod progress;
 pub mod slider;
+pub mod steady;
 pub mod test_positions;
 pub mod theme;
 
@@ -17,12 +18,13 @@ use std::ops::RangeInclusive;
 
 use egui::{
     Align, Color32, Context, DragValue, Frame, Id, Key, Label, Layout, Modifiers, Rect, RectAlign, Response, RichText,
-    Role, Sense, Stroke, StrokeKind, TextStyle, Tooltip, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Role, Sense, Stroke, StrokeKind, TextStyle, Tooltip, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use crate::language::Language;
 use icons::Icon;
 use number::{NumberError, RefusedNumber};
+use steady::steady_id;
 use theme::{GRID, Look};
 
 /// Gives a painted view an accessible name and a text of its content for screen readers.
@@ -52,16 +54,18 @@ pub fn button(ui: &mut Ui, icon: Option<Icon>, name: &str, has_text: bool, empha
 
 /// Shows a button whose text differs from its accessible name.
 pub fn named_button(ui: &mut Ui, icon: Option<Icon>, name: &str, text: Option<&str>, emphasis: Emphasis) -> Response {
-    paint_button(ui, icon, (name, text), 0.0, emphasis)
+    paint_button(ui, name, icon, (name, text), 0.0, emphasis)
 }
 
 /// Shows a button that has room for a text of this width, in points: its own text may change, and its size does not.
+/// There is one in its place.
 pub fn button_with_room(ui: &mut Ui, icon: Icon, name: &str, room: f32, emphasis: Emphasis) -> Response {
-    paint_button(ui, Some(icon), (name, Some(name)), room, emphasis)
+    paint_button(ui, "button with room", Some(icon), (name, Some(name)), room, emphasis)
 }
 
 fn paint_button(
     ui: &mut Ui,
+    key: &str,
     icon: Option<Icon>,
     (name, text): (&str, Option<&str>),
     room: f32,
@@ -76,7 +80,7 @@ fn paint_button(
     let gap = if galley.is_some() && icon.is_some() { GRID } else { 0.0 };
     let size =
         vec2(icon_width + gap + text_width.max(room) + if galley.is_some() { 3.0 } else { 2.0 } * GRID, 4.0 * GRID);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let (rect, response) = steady::allocate_size(ui, size, key, Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), emphasis == Emphasis::On, name));
     if ui.is_rect_visible(rect) {
         let hovered = response.hovered() || response.is_pointer_button_down_on();
@@ -174,7 +178,8 @@ fn field_of_number<N: egui::emath::Numeric>(
     (name, language): (&str, Language),
     is_live: bool,
 ) -> Response {
-    ui.scope(|ui| {
+    let steady = UiBuilder::new().scope_id(steady_id(ui, name));
+    ui.scope_builder(steady, |ui| {
         // A low row has small text.
         let height = ui.available_height().min(3.5 * GRID);
         ui.spacing_mut().interact_size = vec2(width, height);

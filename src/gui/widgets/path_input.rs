@@ -7,6 +7,7 @@ use egui::text_edit::TextEditState;
 use egui::{Key, Response, RichText, Role, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::keep_escape;
+use super::steady::steady_id;
 use super::theme::{GRID, Look};
 use crate::language::{Language, say, word};
 
@@ -133,7 +134,7 @@ fn text_field(
 ) -> (Response, bool, bool) {
     let hint = RichText::new(hint).color(Look::of(ui.ctx()).quiet);
     let field = TextEdit::singleline(path).desired_width(width).hint_text(hint).margin(vec2(GRID, 0.75 * GRID));
-    let field = ui.add(field);
+    let field = ui.add(field.id(steady_id(ui, name)));
     field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     keep_escape(ui, &field);

@@ -1,7 +1,8 @@
 //! A slim slider.
 
-use egui::{Color32, Event, MouseWheelUnit, Response, Stroke, Ui, WidgetInfo, pos2};
+use egui::{Color32, Event, MouseWheelUnit, Response, Stroke, Ui, UiBuilder, WidgetInfo, pos2};
 
+use super::steady::steady_id;
 use super::theme::{GRID, Look};
 
 /// Scale of a slider.
@@ -55,7 +56,8 @@ pub fn wheel_steps(ui: &Ui, widget: &Response) -> i32 {
 
 /// Shows a slider with its filled part in `colour`. `name` is its accessible name.
 pub fn slider(ui: &mut Ui, value: &mut f64, scale: Scale, width: f32, colour: Color32, name: &str) -> Response {
-    ui.scope(|ui| {
+    let steady = UiBuilder::new().scope_id(steady_id(ui, name));
+    ui.scope_builder(steady, |ui| {
         let look = Look::of(ui.ctx());
         ui.spacing_mut().slider_width = width;
         ui.spacing_mut().interact_size.y = ui.available_height().min(2.5 * GRID);

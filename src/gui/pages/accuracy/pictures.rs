@@ -3,6 +3,7 @@
 use egui::{Align2, Color32, ColorImage, Event, Key, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui};
 use egui::{EventFilter, WidgetInfo, pos2, vec2};
 
+use crate::gui::widgets::steady;
 use crate::gui::widgets::theme::{self, GRID, Look};
 use crate::gui::widgets::{self, choice_buttons};
 use crate::language::{Language, comma, say, word};
@@ -84,7 +85,7 @@ impl PointPictures {
         let size = vec2(picture.size().width() as f32, picture.size().height() as f32);
         let room = vec2(ui.available_width(), (height - CONTROLS_HEIGHT_PT).max(8.0 * GRID));
         let shown = size * (room.x / size.x).min(room.y / size.y);
-        let (rect, response) = ui.allocate_exact_size(shown, Sense::click_and_drag());
+        let (rect, response) = steady::allocate_size(ui, shown, "pictures", Sense::click_and_drag());
         let textures = match self.textures.take().filter(|textures| textures.of == of) {
             Some(textures) => textures,
             None => Textures::new(ui, of, picture, reference),

@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, session: &mut Session) {
     let list = ScrollArea::vertical().id_salt("queue").max_height(MAX_HEIGHT_PT).min_scrolled_height(MAX_HEIGHT_PT);
     list.show(ui, |ui| {
         for export in session.exports().filter(is_shown) {
-            if row(ui, export, language) {
+            if ui.push_id(export.job, |ui| row(ui, export, language)).inner {
                 cancelled = Some(export.job);
             }
         }
