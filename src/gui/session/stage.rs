@@ -106,7 +106,7 @@ impl Stage {
 
     /// Shows the coarse preview where nothing is traced yet.
     pub fn show_preview(&mut self, preview: Arc<[Rgb]>) {
-        self.canvas.preview(preview, &shown(&self.earlier, &self.view).state);
+        self.canvas.preview(preview);
     }
 
     /// Applies the updates since the last call and advances the shown time; `clock` is egui's, in seconds. Returns

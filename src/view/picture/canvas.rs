@@ -28,7 +28,10 @@ pub struct Canvas {
     /// Preview of the render; may be empty. It is apart from `render`, so that a time that is shown again looks the
     /// same.
     preview: Arc<[Rgb]>,
+    /// Drawn by [`Canvas::set_look`] at first, and then atom by atom.
     shown: Vec<Rgb>,
+    /// Whether all of `shown` is to be drawn again with the next look.
+    is_stale: bool,
     /// By atom: its look in `shown`.
     painted: Vec<Painted>,
     /// By row: whether it has changed since [`Canvas::take_dirty`].
@@ -60,7 +63,8 @@ impl Canvas {
             render: vec![[0; 3]; pixels],
             has_pixels: vec![false; division.atoms() as usize],
             preview: Arc::default(),
-            shown: vec![ground; pixels],
+            shown: vec![[0; 3]; pixels],
+            is_stale: true,
             painted: vec![Painted::default(); division.atoms() as usize],
             dirty: vec![true; size.height() as usize],
         }
@@ -86,14 +90,14 @@ impl Canvas {
     }
 
     /// Shows a preview of all pixels, in scan order, faintly; none if it is empty.
-    pub fn preview(&mut self, preview: Arc<[Rgb]>, state: &RunState) {
+    pub fn preview(&mut self, preview: Arc<[Rgb]>) {
         self.preview = preview;
-        self.paint(0..self.division.atoms(), state);
+        self.is_stale = true;
     }
 
     /// Redraws atoms.
     pub fn paint(&mut self, atoms: Range<Atom>, state: &RunState) {
-        for atom in atoms {
+        for atom in if self.is_stale { 0..0 } else { atoms } {
             let pixels = self.division.pixels(atom);
             if pixels.is_empty() {
                 continue;
@@ -107,7 +111,7 @@ impl Canvas {
 
     /// Redraws those of the atoms whose look has changed.
     pub fn show(&mut self, atoms: Range<Atom>, state: &RunState) {
-        for atom in atoms {
+        for atom in if self.is_stale { 0..0 } else { atoms } {
             if self.painted[atom as usize] != self.to_paint(atom, state) {
                 self.paint(atom..atom + 1, state);
             }
@@ -133,8 +137,8 @@ impl Canvas {
             self.mean_cost = mean;
             self.show_all(state);
         }
-        if (blend, ground) != (self.blend, self.ground) {
-            (self.blend, self.ground) = (blend, ground);
+        if self.is_stale || (blend, ground) != (self.blend, self.ground) {
+            (self.blend, self.ground, self.is_stale) = (blend, ground, false);
             self.paint(0..self.division.atoms(), state);
         }
     }
@@ -197,9 +201,7 @@ impl Canvas {
         if !self.preview.is_empty() && !is_traced_now {
             // Fainter the more of the layer is shown, so that traced atoms stand out.
             let share = 0.35 - 0.2 * self.blend;
-            for (to, &preview) in self.shown[pixels.clone()].iter_mut().zip(&self.preview[pixels.clone()]) {
-                *to = mix(plain, preview, share);
-            }
+            blend_in(plain, &self.preview[pixels.clone()], share, &mut self.shown[pixels.clone()]);
         } else {
             self.shown[pixels.clone()].fill(plain);
         }
@@ -227,6 +229,18 @@ impl Canvas {
     }
 }
 
+/// Blends `share` of each of the pixels into a colour, as [`mix`] does, in whole numbers: whole pictures are drawn so
+/// in one frame.
+fn blend_in(plain: Rgb, pixels: &[Rgb], share: f32, out: &mut [Rgb]) {
+    const WHOLE: u32 = 1 << 16;
+    let share = (share * WHOLE as f32) as u32;
+    let [r, g, b] = plain.map(|channel| u32::from(channel) * (WHOLE - share) + WHOLE / 2);
+    for (to, &[red, green, blue]) in out.iter_mut().zip(pixels) {
+        let blend = |plain: u32, channel: u8| ((plain + u32::from(channel) * share) / WHOLE) as u8;
+        *to = [blend(r, red), blend(g, green), blend(b, blue)];
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -243,6 +257,7 @@ mod tests {
         canvas.take_dirty();
         let touched = state.take_touched();
         canvas.take(0..20, &vec![[0.0, 1.0, 0.0]; 1000]);
+        canvas.set_look((Layer::Owners, 0.0), GROUND, &state);
         touched.into_iter().for_each(|atoms| canvas.paint(atoms, &state));
         (canvas, state)
     }
@@ -279,8 +294,21 @@ mod tests {
         let mut state = RunState::new(&header);
         let mut canvas = Canvas::new(header.size, header.division, COLOURS.to_vec(), ground);
         sample_runs::records(&header).iter().take(6).for_each(|record| state.apply(record));
-        state.take_touched().into_iter().for_each(|atoms| canvas.paint(atoms, &state));
+        canvas.set_look((Layer::Owners, 0.0), ground, &state);
         canvas
+    }
+
+    #[test]
+    fn preview_is_blended_as_by_mix() {
+        let pixels: Vec<Rgb> = (0..=255).map(|value| [value, 255 - value, value / 2]).collect();
+        for share in [0.15, 0.2, 0.35] {
+            let mut blended = vec![[0; 3]; pixels.len()];
+            blend_in([3, 128, 250], &pixels, share, &mut blended);
+            for (&one, &pixel) in blended.iter().zip(&pixels) {
+                let expected = mix([3, 128, 250], pixel, share);
+                assert!(one.iter().zip(expected).all(|(&a, b)| a.abs_diff(b) <= 1), "{one:?}, {expected:?}");
+            }
+        }
     }
 
     #[test]
