@@ -187,12 +187,10 @@ impl Leaf {
                     _ => Intervals::Never,
                 })
             }
-            Shape::Block(block) => {
-                Spans::slabs(ray.origin, ray.direction, block.min.to_array(), block.max.to_array(), start)
-            }
+            Shape::Block(block) => Spans::slabs(ray.origin, ray.direction, block.min, block.max, start),
             Shape::Cube(frame) => {
                 let (o, d) = frame.ray_to_local(ray);
-                Spans::slabs(o, d, [-1.0; 3], [1.0; 3], start)
+                Spans::slabs(o, d, DVec3::NEG_ONE, DVec3::ONE, start)
             }
             Shape::Ellipsoid(frame) => {
                 let (o, d) = frame.ray_to_local(ray);

@@ -70,8 +70,31 @@ impl Spans {
     }
 
     /// The span in a box, in the coordinates of `o` and `d`.
-    #[inline]
-    pub fn slabs(o: DVec3, d: DVec3, min: [f64; 3], max: [f64; 3], start: Option<u8>) -> Self {
+    #[inline(always)]
+    pub fn slabs(o: DVec3, d: DVec3, min: DVec3, max: DVec3, start: Option<u8>) -> Self {
+        if start.is_some() || d.x == 0.0 || d.y == 0.0 || d.z == 0.0 {
+            return Self::slabs_one_by_one(o, d, min, max, start);
+        }
+        // No branch: which face a ray meets first cannot be foretold.
+        let (a, b) = ((min - o) / d, (max - o) / d);
+        let mut span = Span { from: f64::NEG_INFINITY, from_face: 0, to: f64::INFINITY, to_face: 0 };
+        for axis in 0..3 {
+            let is_backwards = d[axis] < 0.0;
+            let (near, far) = if is_backwards { (b[axis], a[axis]) } else { (a[axis], b[axis]) };
+            let face = 2 * axis as u8;
+            let is_last_entry = near > span.from;
+            span.from = if is_last_entry { near } else { span.from };
+            span.from_face = if is_last_entry { face + u8::from(is_backwards) } else { span.from_face };
+            let is_first_exit = far < span.to;
+            span.to = if is_first_exit { far } else { span.to };
+            span.to_face = if is_first_exit { face + u8::from(!is_backwards) } else { span.to_face };
+        }
+        Self { first: (span.from < span.to).then_some(span), second: None }
+    }
+
+    /// Does the same for a ray along an axis, or from a face.
+    #[cold]
+    fn slabs_one_by_one(o: DVec3, d: DVec3, min: DVec3, max: DVec3, start: Option<u8>) -> Self {
         let mut span = Span { from: f64::NEG_INFINITY, from_face: 0, to: f64::INFINITY, to_face: 0 };
         for axis in 0..3 {
             if !span.clip_slab([min[axis], max[axis]], o[axis], d[axis], 2 * axis as u8, start) {
