@@ -50,6 +50,23 @@ fn picture_of_another_size_is_traced_again_and_can_be_cancelled() {
     assert!(!path.exists() && notice(&window).starts_with("Cancelled"));
 }
 
+#[test]
+fn fields_stay_where_they_are_when_the_preview_comes_and_the_run_ends() {
+    let mut window = open(SIZE);
+    press(&mut window, "Save…");
+    choose_kind(&mut window, "any size");
+    press(&mut window, "4K");
+    let place = |window: &Window| window.get_by_role_and_label(Role::Button, "Own size").rect();
+    let before = place(&window);
+    assert!(before.top() > window.get_by_label("Preview").rect().bottom());
+    let preview = |window: &Window| window.get_by_label("Preview").value();
+    until(&mut window, "a preview", |window| preview(window).as_deref() == Some("3840 × 2160"));
+    assert_eq!(place(&window), before);
+    until(&mut window, "the end", |window| session(window).stage().phase == anel::gui::Phase::Finished);
+    window.run_steps(5);
+    assert_eq!(place(&window), before);
+}
+
 /// Replaces the path in its field, which need not have the focus.
 fn retype_path(window: &mut Window, path: &Path) {
     window.get_by_label(FIELD).click();

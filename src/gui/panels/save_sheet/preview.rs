@@ -152,9 +152,9 @@ fn words(ui: &mut Ui, area: Rect, text: &str, colour: Color32) {
     let font = theme::regular(theme::BODY);
     let height = ui.painter().layout(text.to_owned(), font.clone(), colour, inner.width()).size().y;
     let rect = inner.with_min_y((inner.center().y - height / 2.0).max(inner.top()));
-    ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
-        ui.vertical_centered(|ui| ui.add(Label::new(RichText::new(text).font(font).color(colour)).wrap()));
-    });
+    // A scope would move what follows into the area.
+    let mut within = ui.new_child(UiBuilder::new().max_rect(rect));
+    within.vertical_centered(|ui| ui.add(Label::new(RichText::new(text).font(font).color(colour)).wrap()));
 }
 
 /// Returns width and height of a drawing's file in pixels, if it becomes a PNG.
