@@ -129,7 +129,7 @@ impl Tree {
     }
 
     /// Joins the convex leaves at the beginning of an intersection's operands into one operand.
-    fn join_convex(&mut self, children: &mut Vec<NodeIndex>) {
+    pub(super) fn join_convex(&mut self, children: &mut Vec<NodeIndex>) {
         let mut leaves = Vec::new();
         let mut bounds = Aabb::ALL;
         let mut joined = 0;
@@ -181,7 +181,7 @@ impl Tree {
         self.frame = Some(frame);
     }
 
-    fn push(&mut self, kind: NodeKind, bounds: Aabb) -> NodeIndex {
+    pub(super) fn push(&mut self, kind: NodeKind, bounds: Aabb) -> NodeIndex {
         let index = NodeIndex(self.nodes.len() as u32);
         self.nodes.push(Node { bounds, kind });
         index

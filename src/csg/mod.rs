@@ -8,6 +8,7 @@ mod coincidence;
 mod id;
 mod merge;
 mod outline;
+mod parts;
 mod passes;
 mod primitive;
 mod quadratic;

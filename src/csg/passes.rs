@@ -18,6 +18,8 @@ pub enum Pass {
     CompositionBounds,
     /// Splits an opaque union into its operands.
     SplitUnions,
+    /// Splits also the unions inside an opaque difference or intersection.
+    LocalParts,
     /// Puts the solids into a hierarchy of bounding boxes.
     Bvh,
     /// Computes integer powers by multiplication.
@@ -26,7 +28,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::CullEmpty,
         Self::FoundBounds,
         Self::UnionTrees,
@@ -34,6 +36,7 @@ impl Pass {
         Self::SceneShapes,
         Self::CompositionBounds,
         Self::SplitUnions,
+        Self::LocalParts,
         Self::Bvh,
         Self::IntegerPowers,
     ];
@@ -48,6 +51,7 @@ impl Pass {
             Self::SceneShapes => "balls and axis-aligned boxes are stored in scene coordinates",
             Self::CompositionBounds => "a composition is tested only with rays that meet its box",
             Self::SplitUnions => "an opaque union is split into its operands",
+            Self::LocalParts => "unions inside an opaque difference or intersection are split, too",
             Self::Bvh => "solids are in a hierarchy of boxes",
             Self::IntegerPowers => "integer powers are computed by multiplication",
         }

@@ -273,6 +273,69 @@ impl Leaf {
         !matches!(self.shape, Shape::Quadric { .. } | Shape::Torus { .. })
     }
 
+    /// Whether a face of this leaf may coincide with one of another, as far as that is seen without much work.
+    pub(super) fn may_share_face(&self, other: &Self) -> bool {
+        const ROOM: f64 = 1e-9;
+        let [planes, others] = [self, other].map(Self::planes);
+        let coincide = |&(normal, offset): &(DVec3, f64), &(other, other_offset): &(DVec3, f64)| {
+            let side = normal.dot(other).signum();
+            (normal - other * side).length() < ROOM
+                && (offset - other_offset * side).abs() <= ROOM * (1.0 + offset.abs())
+        };
+        if planes.iter().any(|plane| others.iter().any(|other| coincide(plane, other))) {
+            return true;
+        }
+        match (&self.shape, &other.shape) {
+            (Shape::Ball { centre, radius }, Shape::Ball { centre: other, radius: other_radius }) => {
+                (*centre - *other).length() + (radius - other_radius).abs() <= ROOM * (1.0 + centre.length())
+            }
+            (Shape::HalfSpace { .. } | Shape::Block(_) | Shape::Cube(_), _)
+            | (_, Shape::HalfSpace { .. } | Shape::Block(_) | Shape::Cube(_)) => false,
+            (Shape::Quadric { .. }, _) | (_, Shape::Quadric { .. }) => true,
+            (one, other) => std::mem::discriminant(one) == std::mem::discriminant(other),
+        }
+    }
+
+    /// The planes of its flat faces: normals of length 1, and offsets.
+    fn planes(&self) -> Vec<(DVec3, f64)> {
+        let of_frame = |frame: &LocalFrame, axis: usize| {
+            [1.0, -1.0].map(|side| {
+                let normal = frame.axis_normals[axis] * side;
+                let local = DVec3::AXES[axis] * side;
+                (normal, normal.dot(frame.local_from_scene.inverse().transform_point3(local)))
+            })
+        };
+        match &self.shape {
+            Shape::HalfSpace { normal, offset } => vec![(*normal, *offset)],
+            Shape::Block(block) => {
+                let sides =
+                    |axis: usize| [(DVec3::AXES[axis], block.max[axis]), (-DVec3::AXES[axis], -block.min[axis])];
+                (0..3).flat_map(sides).collect()
+            }
+            Shape::Cube(frame) => (0..3).flat_map(|axis| of_frame(frame, axis)).collect(),
+            Shape::Cylinder(frame) | Shape::Cone { frame, .. } => of_frame(frame, 1).to_vec(),
+            Shape::Ball { .. } | Shape::Ellipsoid(_) | Shape::Torus { .. } | Shape::Quadric { .. } => Vec::new(),
+        }
+    }
+
+    /// Whether a point lies in the leaf, which is convex.
+    pub(super) fn contains(&self, point: DVec3) -> bool {
+        match &self.shape {
+            Shape::Ball { centre, radius } => (point - *centre).length_squared() <= radius * radius,
+            Shape::HalfSpace { normal, offset } => normal.dot(point) <= *offset,
+            Shape::Block(block) => (block.min.cmple(point) & point.cmple(block.max)).all(),
+            Shape::Ellipsoid(frame) => Primitive::Sphere.contains(frame.point_to_local(point)),
+            Shape::Cube(frame) => Primitive::Cube.contains(frame.point_to_local(point)),
+            Shape::Cylinder(frame) => Primitive::Cylinder.contains(frame.point_to_local(point)),
+            Shape::Cone { frame, base, waist, slope } => {
+                let q = frame.point_to_local(point);
+                let radius = waist + slope * (q.y - base);
+                q.x * q.x + q.z * q.z <= radius * radius && q.y.abs() <= 1.0
+            }
+            Shape::Torus { .. } | Shape::Quadric { .. } => false,
+        }
+    }
+
     /// The outward unit normal at a point of one of the faces.
     pub fn normal(&self, face: u8, point: DVec3) -> DVec3 {
         match &self.shape {

@@ -33,7 +33,7 @@ pub(super) struct Node {
     pub kind: NodeKind,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum NodeKind {
     Leaf(LeafIndex),
     /// The intersection of convex leaves: at most one span, found without merging.

@@ -92,12 +92,17 @@ impl CompiledScene {
                 dropped += 1;
                 continue;
             };
-            if bounds.is_finite() {
-                bounded.push((root, bounds));
-            } else {
-                unbounded.push(root);
+            let (ior, may_contain_eye) = (ior(solid, scene), solid.contains(scene.camera.eye));
+            let is_split = ior.is_none() && !may_contain_eye && passes.has(Pass::LocalParts);
+            let parts = if is_split { tree.parts(root, bounds) } else { vec![(root, bounds)] };
+            for (root, bounds) in parts {
+                if bounds.is_finite() {
+                    bounded.push((root, bounds));
+                } else {
+                    unbounded.push(root);
+                }
+                transmitting.push((root, ior, may_contain_eye));
             }
-            transmitting.push((root, ior(solid, scene), solid.contains(scene.camera.eye)));
         }
         tree.finish();
         let mut iors = Vec::new();

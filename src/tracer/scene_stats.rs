@@ -67,7 +67,10 @@ impl Tracer {
     pub fn scene_stats(&self) -> SceneStats {
         let scene = &self.scene;
         let roots: Vec<RootId> = scene.roots().collect();
-        let leaves: Vec<_> = roots.iter().flat_map(|&root| scene.tree.leaves_of(root)).collect();
+        let mut leaves: Vec<_> = roots.iter().flat_map(|&root| scene.tree.leaves_of(root)).collect();
+        // Parts of one solid share what is subtracted from all of them.
+        leaves.sort_by_key(|leaf| std::ptr::from_ref(*leaf));
+        leaves.dedup_by_key(|leaf| std::ptr::from_ref(*leaf));
         let shadings = || leaves.iter().map(|leaf| &scene.shadings[leaf.tag.index()]);
         let mut primitives = BTreeMap::new();
         for leaf in &leaves {

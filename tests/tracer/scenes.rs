@@ -1,12 +1,13 @@
 //! The built-in scenes, and the effect of compiling on them.
 
 use super::povray_scenes::{Case, cases, enlarge};
-use anel::csg::{MaterialTag, Primitive, Solid};
+use anel::csg::{MaterialTag, Pass, Passes, Primitive, Solid};
 use anel::export::to_pov;
 use anel::picture::{Colour, Quality, Size};
 use anel::scene::{BUILT_IN, SMALL_BUILT_IN, Scene};
 use anel::tracer::{RayKind, Scratch, Tracer};
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DQuat, DVec3};
+use proptest::prelude::*;
 
 fn parse(name: &str, text: &str) -> Scene {
     Scene::parse(text).unwrap_or_else(|error| panic!("{name}: {error}"))
@@ -137,6 +138,60 @@ fn split_union_looks_the_same() {
         let (apart, whole) = (pixels(&scene), pixels(&kept_whole));
         let differing = apart.iter().zip(&whole).filter(|(a, b)| a != b).count();
         assert_eq!(differing, 0, "{name}: differing pixels, of {}", apart.len());
+    }
+}
+
+/// A cube, ball or cylinder of this size and material in a place of a grid, so that faces coincide.
+fn in_grid([x, y, z]: [i32; 3], half: f64, kind: u8, tag: u32) -> Solid {
+    let primitive = [Primitive::Cube, Primitive::Sphere, Primitive::Cylinder][usize::from(kind)];
+    let place = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+    let scene_from_local = DAffine3::from_scale_rotation_translation(DVec3::splat(half), DQuat::IDENTITY, place);
+    Solid::Placed { primitive, scene_from_local, tag: MaterialTag(tag) }
+}
+
+/// What is done to a union: how, and the solids that it is done with, as for [`in_grid`].
+fn step() -> impl Strategy<Value = (u8, Vec<([i32; 3], f64, u8, u32)>)> {
+    let place = || [-3..=3_i32, -3..=3, -3..=3];
+    let half = prop::sample::select(&[0.5, 1.0, 1.5, 2.5, 4.0][..]);
+    (0..3_u8, prop::collection::vec((place(), half, 0..3_u8, 0..2_u32), 1..4))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn parts_of_a_large_composition_look_like_the_whole(
+        union in prop::collection::vec((prop::sample::select(&[0.3, 0.5, 0.6][..]), 0..3_u8, 0..2_u32), 125),
+        steps in prop::collection::vec(step(), 1..4), materials in 1..3_u32,
+    ) {
+        const TEXT: &str = r#"Scene(
+            camera: (eye: (4.1, 5.3, 9.7), look_at: (0, 0, 0), field_of_view: 38),
+            lights: [Point(position: (6, 9, 5)), Directional(direction: (1, -2, 0.5), colour: (0.3, 0.3, 0.3))],
+            materials: { "red": (colour: (0.8, 0.2, 0.1), ks: 0.3), "grey": (colour: (0.5, 0.5, 0.5)) },
+            objects: [Sphere(radius: 1, material: "red"), Sphere(radius: 1, material: "grey")],
+        )"#;
+        let mut scene = parse("parts", TEXT);
+        let place = |index: i32| [index % 5 - 2, index / 5 % 5 - 2, index / 25 - 2];
+        // With one material nothing depends on which of two coincident faces is seen.
+        let parts = (0..).zip(union).map(|(index, (half, kind, tag))| in_grid(place(index), half, kind, tag % materials));
+        let solid = steps.into_iter().fold(Solid::Union(parts.collect()), |solid, (way, others)| {
+            let others: Vec<_> = others.into_iter().map(|(at, half, kind, tag)| in_grid(at, half, kind, tag % materials)).collect();
+            let both = |first: Vec<Solid>, second: Vec<Solid>| first.into_iter().chain(second).collect();
+            match way {
+                0 => Solid::Difference(both(vec![solid], others)),
+                1 => Solid::Intersection(vec![solid, Solid::Union(others)]),
+                _ => Solid::Intersection(vec![Solid::Union(others), solid]),
+            }
+        });
+        scene.solids = vec![solid];
+        let picture = |passes| {
+            let mut pixels = Vec::new();
+            let tracer = Tracer::with_passes(&scene, Size::new(48, 36).expect("small"), Quality::default(), passes);
+            tracer.trace(0..48 * 36, &mut Scratch::default(), &mut pixels);
+            pixels
+        };
+        let (parts, whole) = (picture(Passes::default()), picture(Passes::default().without(Pass::LocalParts)));
+        let differing = parts.iter().zip(&whole).filter(|(a, b)| a != b).count();
+        prop_assert_eq!(differing, 0, "of {} pixels", whole.len());
     }
 }
 
