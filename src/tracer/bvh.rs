@@ -8,7 +8,7 @@ use crate::geometry::{Aabb, BoxFrame, BoxRay, Boxes, Ray, WIDTH, split, split_in
 #[derive(Debug)]
 pub(super) struct Bvh {
     frame: BoxFrame,
-    top: Option<(Aabb, Child)>,
+    top: Option<Child>,
     nodes: Vec<Node>,
     /// The roots without bounds, then those of the leaves.
     roots: Vec<RootId>,
@@ -36,10 +36,9 @@ pub(super) struct Pending(Vec<(f32, Child)>);
 impl Bvh {
     /// Puts the bounded solids into a hierarchy.
     pub fn new(unbounded: Vec<RootId>, mut bounded: Vec<(RootId, Aabb)>) -> Self {
-        let bounds = bounds_of(&bounded);
-        let mut bvh = Self::of_unbounded(unbounded, bounds);
+        let mut bvh = Self::of_unbounded(unbounded, bounds_of(&bounded));
         if !bounded.is_empty() {
-            bvh.top = Some((bounds, bvh.build(&mut bounded, 0)));
+            bvh.top = Some(bvh.add_node(split_into(&mut bounded, 0, WIDTH, split)));
         }
         bvh
     }
@@ -49,7 +48,11 @@ impl Bvh {
         let bounds = bounds_of(&bounded);
         let mut bvh = Self::of_unbounded(unbounded, bounds);
         if !bounded.is_empty() {
-            bvh.top = Some((bounds, bvh.add_leaf(&bounded)));
+            let mut node = Node { boxes: Boxes::NONE, children: [Child::default(); WIDTH] };
+            node.boxes.add(bounds, &bvh.frame);
+            node.children[0] = bvh.add_leaf(&bounded);
+            bvh.nodes.push(node);
+            bvh.top = Some(Child { to: 0, count: 0 });
         }
         bvh
     }
@@ -64,24 +67,22 @@ impl Bvh {
         self.roots.split_at(self.unbounded as usize)
     }
 
-    /// Starts the walk of `ray` through the solids that it may meet before `t_max`.
+    /// Starts the walk of `ray`.
     #[inline(always)]
-    pub fn walk<'a>(&'a self, ray: &Ray, t_max: f64, Pending(pending): &'a mut Pending) -> Walk<'a> {
+    pub fn walk<'a>(&'a self, ray: &Ray, Pending(pending): &'a mut Pending) -> Walk<'a> {
         pending.clear();
-        if let Some((bounds, top)) = &self.top
-            && bounds.entry(ray, 0.0, t_max).is_some()
-        {
-            pending.push((f32::NEG_INFINITY, *top));
-        }
+        pending.extend(self.top.map(|top| (f32::NEG_INFINITY, top)));
         let ray = self.frame.ray(ray);
         Walk { bvh: self, pending, unbounded: true, start: ray.place(0.0), ray }
     }
 
     fn build(&mut self, solids: &mut [(RootId, Aabb)], depth: u32) -> Child {
         let groups = split_into(solids, depth, WIDTH, split);
-        if let [(only, _)] = &groups[..] {
-            return self.add_leaf(only);
-        }
+        if let [(only, _)] = &groups[..] { self.add_leaf(only) } else { self.add_node(groups) }
+    }
+
+    /// Adds a node for groups of solids, each with its depth.
+    fn add_node(&mut self, groups: Vec<(&mut [(RootId, Aabb)], u32)>) -> Child {
         let number = self.nodes.len();
         self.nodes.push(Node { boxes: Boxes::NONE, children: [Child::default(); WIDTH] });
         for (place, (group, depth)) in groups.into_iter().enumerate() {
@@ -119,8 +120,7 @@ impl<'a> Walk<'a> {
     /// Returns the next solids that the ray may meet before `t_max`, which may be less with each call.
     #[inline(always)]
     pub fn next(&mut self, t_max: f64) -> Option<&'a [RootId]> {
-        if self.unbounded {
-            self.unbounded = false;
+        if std::mem::take(&mut self.unbounded) {
             return Some(self.bvh.roots().0);
         }
         // Boxes have more room than what this is rounded by.
