@@ -34,9 +34,9 @@ enum Step {
 }
 
 impl Tree {
-    /// Divides the solid `root` into parts, each with a box. Only for a solid that no ray enters: the boundaries between
-    /// its parts are there, too. A solid stays whole where its parts might look different: a face of `a` that lies in
-    /// `b` is seen where it coincides with one of `c`.
+    /// Divides the solid `root` into parts, each with a box. Only for a solid that no ray enters: the boundaries
+    /// between its parts are there, too. A solid stays whole where its parts might look different: a face of `a` that
+    /// lies in `b` is seen where it coincides with one of `c`.
     pub fn parts(&mut self, root: RootId, bounds: Aabb) -> Vec<(RootId, Aabb)> {
         let mut parts = self.parts_of(root.node());
         if parts.len() < MIN_PARTS || !parts.iter().all(|part| self.looks_the_same(part)) {
@@ -128,8 +128,8 @@ impl Tree {
             }
     }
 
-    /// Whether the same faces are seen as in the whole, or faces that look the same, where some coincide. Of what stands
-    /// before a part its faces are seen in any case.
+    /// Whether the same faces are seen as in the whole, or faces that look the same, where some coincide. The faces of
+    /// what stands before a part are seen in any case.
     fn looks_the_same(&self, part: &Part) -> bool {
         let core = self.leaves_of(RootId(part.core.0));
         part.steps.iter().all(|step| {
@@ -147,8 +147,8 @@ impl Tree {
         }
     }
 
-    /// Adds the nodes of a part. Even a part to which nothing is done gets a new one: solids are in the order of their
-    /// nodes.
+    /// Adds the nodes of a part. Even a part to which nothing is done gets a new one: solids are in the order of
+    /// their nodes.
     fn add_part(&mut self, part: &Part) -> NodeIndex {
         let mut node = self.push(self.nodes[part.core.index()].kind.clone(), part.bounds);
         for steps in part.steps.chunk_by(|a, b| matches!((a, b), (Step::Subtract(_), Step::Subtract(_)))) {

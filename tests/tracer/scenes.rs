@@ -149,8 +149,11 @@ fn in_grid([x, y, z]: [i32; 3], half: f64, kind: u8, tag: u32) -> Solid {
     Solid::Placed { primitive, scene_from_local, tag: MaterialTag(tag) }
 }
 
+/// A place, half a size, a kind and a material.
+type InGrid = ([i32; 3], f64, u8, u32);
+
 /// What is done to a union: how, and the solids that it is done with, as for [`in_grid`].
-fn step() -> impl Strategy<Value = (u8, Vec<([i32; 3], f64, u8, u32)>)> {
+fn step() -> impl Strategy<Value = (u8, Vec<InGrid>)> {
     let place = || [-3..=3_i32, -3..=3, -3..=3];
     let half = prop::sample::select(&[0.5, 1.0, 1.5, 2.5, 4.0][..]);
     (0..3_u8, prop::collection::vec((place(), half, 0..3_u8, 0..2_u32), 1..4))

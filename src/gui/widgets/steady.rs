@@ -1,7 +1,7 @@
 //! Widgets that stay the same widgets when others before them come or go.
 //!
-//! egui numbers the widgets of a place in their order. With such an id, a press is lost whose widget gets another number
-//! before the release, and a field loses the focus with a number half typed.
+//! egui numbers the widgets of a place in their order. With such an id, a press is lost whose widget gets another
+//! number before the release, and a field loses the focus with a number half typed.
 
 use egui::{Align2, Id, Rect, Response, Sense, Ui, Vec2};
 
