@@ -8,7 +8,6 @@ use crate::geometry::{Aabb, BoxFrame, BoxRay, Boxes, Ray, WIDTH, split, split_in
 #[derive(Debug)]
 pub(super) struct Bvh {
     frame: BoxFrame,
-    top: Option<Child>,
     nodes: Vec<Node>,
     /// The roots without bounds, then those of the leaves.
     roots: Vec<RootId>,
@@ -38,7 +37,7 @@ impl Bvh {
     pub fn new(unbounded: Vec<RootId>, mut bounded: Vec<(RootId, Aabb)>) -> Self {
         let mut bvh = Self::of_unbounded(unbounded, bounds_of(&bounded));
         if !bounded.is_empty() {
-            bvh.top = Some(bvh.add_node(split_into(&mut bounded, 0, WIDTH, split)));
+            bvh.add_node(split_into(&mut bounded, 0, WIDTH, split));
         }
         bvh
     }
@@ -52,14 +51,13 @@ impl Bvh {
             node.boxes.add(bounds, &bvh.frame);
             node.children[0] = bvh.add_leaf(&bounded);
             bvh.nodes.push(node);
-            bvh.top = Some(Child { to: 0, count: 0 });
         }
         bvh
     }
 
     fn of_unbounded(roots: Vec<RootId>, bounds: Aabb) -> Self {
         let unbounded = roots.len() as u32;
-        Self { frame: BoxFrame::new(bounds), top: None, nodes: Vec::new(), unbounded, roots }
+        Self { frame: BoxFrame::new(bounds), nodes: Vec::new(), unbounded, roots }
     }
 
     /// All roots: those without bounds, and the others.
@@ -71,9 +69,8 @@ impl Bvh {
     #[inline(always)]
     pub fn walk<'a>(&'a self, ray: &Ray, Pending(pending): &'a mut Pending) -> Walk<'a> {
         pending.clear();
-        pending.extend(self.top.map(|top| (f32::NEG_INFINITY, top)));
         let ray = self.frame.ray(ray);
-        Walk { bvh: self, pending, unbounded: true, start: ray.place(0.0), ray }
+        Walk { bvh: self, pending, stage: Stage::Unbounded, start: ray.place(0.0), ray }
     }
 
     fn build(&mut self, solids: &mut [(RootId, Aabb)], depth: u32) -> Child {
@@ -109,22 +106,42 @@ fn bounds_of(solids: &[(RootId, Aabb)]) -> Aabb {
 pub(super) struct Walk<'a> {
     bvh: &'a Bvh,
     pending: &'a mut Vec<(f32, Child)>,
-    /// Whether the solids without bounds are still to come.
-    unbounded: bool,
+    stage: Stage,
     ray: BoxRay,
     /// The place of the ray's origin.
     start: f32,
+}
+
+/// What a walk comes to next.
+#[derive(Clone, Copy, Debug)]
+enum Stage {
+    /// The solids without bounds.
+    Unbounded,
+    /// The first node.
+    Top,
+    /// The boxes that are pending.
+    Below,
 }
 
 impl<'a> Walk<'a> {
     /// Returns the next solids that the ray may meet before `t_max`, which may be less with each call.
     #[inline(always)]
     pub fn next(&mut self, t_max: f64) -> Option<&'a [RootId]> {
-        if std::mem::take(&mut self.unbounded) {
-            return Some(self.bvh.roots().0);
-        }
         // Boxes have more room than what this is rounded by.
         let end = self.ray.place(t_max);
+        match self.stage {
+            Stage::Unbounded => {
+                self.stage = Stage::Top;
+                return Some(self.bvh.roots().0);
+            }
+            Stage::Top => {
+                self.stage = Stage::Below;
+                if let Some(top) = self.bvh.nodes.first() {
+                    self.visit(top, end);
+                }
+            }
+            Stage::Below => {}
+        }
         while let Some((entry, at)) = self.pending.pop() {
             if entry > end {
                 continue;
