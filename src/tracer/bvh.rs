@@ -67,10 +67,10 @@ impl Bvh {
 
     /// Starts the walk of `ray`.
     #[inline(always)]
-    pub fn walk<'a>(&'a self, ray: &Ray, Pending(pending): &'a mut Pending) -> Walk<'a> {
+    pub fn walk<'a>(&'a self, ray: &Ray, order: Order, Pending(pending): &'a mut Pending) -> Walk<'a> {
         pending.clear();
         let ray = self.frame.ray(ray);
-        Walk { bvh: self, pending, stage: Stage::Unbounded, start: ray.place(0.0), ray }
+        Walk { bvh: self, pending, order, stage: Stage::Unbounded, start: ray.place(0.0), ray }
     }
 
     fn build(&mut self, solids: &mut [(RootId, Aabb)], depth: u32) -> Child {
@@ -106,10 +106,20 @@ fn bounds_of(solids: &[(RootId, Aabb)]) -> Aabb {
 pub(super) struct Walk<'a> {
     bvh: &'a Bvh,
     pending: &'a mut Vec<(f32, Child)>,
+    order: Order,
     stage: Stage,
     ray: BoxRay,
     /// The place of the ray's origin.
     start: f32,
+}
+
+/// The order of a walk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// Nearly that in which the ray enters the boxes.
+    Nearest,
+    /// Any, for a ray that stops at the first solid that it meets.
+    Any,
 }
 
 /// What a walk comes to next.
@@ -165,7 +175,7 @@ impl<'a> Walk<'a> {
             met &= met - 1;
             self.pending.push((entry[child], node.children[child]));
             let mut place = self.pending.len() - 1;
-            while place > first && self.pending[place - 1].0 < self.pending[place].0 {
+            while self.order == Order::Nearest && place > first && self.pending[place - 1].0 < self.pending[place].0 {
                 self.pending.swap(place - 1, place);
                 place -= 1;
             }

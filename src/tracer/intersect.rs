@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::bvh::Pending;
+use super::bvh::{Order, Pending};
 use super::compiled_scene::CompiledScene;
 use super::media::Medium;
 use crate::csg::{Hit, Rank, RayStart, RootId, Stack};
@@ -47,7 +47,7 @@ impl CompiledScene {
         ties.clear();
         let mut nearest = NearestHits { nearest: None, ties };
         let mut t_max = f64::INFINITY;
-        let mut walk = self.bvh.walk(ray, boxes);
+        let mut walk = self.bvh.walk(ray, Order::Nearest, boxes);
         while let Some(roots) = walk.next(t_max) {
             for &root in roots {
                 if let Some(hit) = self.tree.nearest(root, ray, start, t_max, self.is_inside(root, media), spans) {
@@ -73,7 +73,7 @@ impl CompiledScene {
         let HitScratch { spans, boxes, surfaces, media: inside, .. } = scratch;
         let mut blocked = false;
         surfaces.clear();
-        let mut walk = self.bvh.walk(ray, boxes);
+        let mut walk = self.bvh.walk(ray, Order::Any, boxes);
         while let Some(roots) = walk.next(t_max) {
             for &root in roots {
                 self.tree.crossings(root, ray, Some(start), t_max, self.is_inside(root, media), spans, |hit| {
@@ -108,7 +108,7 @@ impl CompiledScene {
     ) -> f64 {
         let HitScratch { spans, boxes, .. } = scratch;
         let mut end = t_max;
-        let mut walk = self.bvh.walk(ray, boxes);
+        let mut walk = self.bvh.walk(ray, Order::Nearest, boxes);
         while let Some(roots) = walk.next(end) {
             for &root in roots {
                 self.tree.crossings(root, ray, Some(start), end, self.is_inside(root, media), spans, |hit| {
