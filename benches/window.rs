@@ -1,7 +1,7 @@
 //! The cost of the window: `cargo bench --bench window`. Measures the CPU of one frame of a running and of a recorded
-//! run, the loss of a run at full speed with the window open, and the CPU of a resting window. The last two need Linux
-//! and Xvfb. `cargo bench --bench window frames` measures only frames; `… memory SECONDS` repeats runs for this time
-//! and prints the memory of the window.
+//! run, what is seen while the camera is dragged, the loss of a run at full speed with the window open, and the CPU of
+//! a resting window. The last two need Linux and Xvfb. `cargo bench --bench window frames` measures only frames,
+//! `… drag SCENE…` only the camera; `… memory SECONDS` repeats runs for this time and prints the memory of the window.
 //!
 //! The figures depend on the computer, which must be otherwise idle; none of them is asserted.
 
@@ -21,6 +21,7 @@ use anel::time::Time;
 use cpu_time::ThreadTime;
 use egui::Key;
 use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
 use tempfile::TempDir;
 
 /// Pairs of runs, with the window and without it.
@@ -34,8 +35,13 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["frames"] => return frames_of_all(),
+        ["drag"] => return drag("ten-objects"),
+        ["drag", ref scenes @ ..] => return scenes.iter().copied().for_each(drag),
         ["memory", seconds] => return memory(seconds.parse().expect("a number of seconds")),
-        _ => frames_of_all(),
+        _ => {
+            frames_of_all();
+            drag("ten-objects");
+        }
     }
     if let Some(display) = Display::open() {
         against_headless(&display);
@@ -154,6 +160,49 @@ fn running(what: &str, settings: &str, shows_timeline: bool) {
         }
     }
     print_times(what, times);
+}
+
+/// Drags the camera of a scene for some seconds at 30 frames a second, and prints how many of the frames show a new
+/// picture, and how fine it is.
+#[expect(clippy::disallowed_methods, reason = "frames come at the times of a display")]
+fn drag(scene: &str) {
+    const FRAMES: u32 = 150;
+    const FRAME: Duration = Duration::from_nanos(1_000_000_000 / 30);
+    let settings = r#"(settings: (size: (width: 640, height: 480), tempo: Full))"#;
+    let mut window = harness(settings, Opening::read(scene).expect("a scene"));
+    let until = |window: &mut Harness<'static, App>, is_true: &dyn Fn(&Phase) -> bool| {
+        while !is_true(&window.state().session().stage().phase) {
+            sleep(Duration::from_millis(20));
+            window.step();
+        }
+    };
+    until(&mut window, &|phase| matches!(phase, Phase::Finished));
+    window.key_press(Key::C);
+    window.step();
+    let start = window.get_by_label_contains("Picture").rect().center();
+    window.hover_at(start);
+    window.drag_at(start);
+    window.step();
+    let (mut fresh, mut last, mut steps) = (0, std::ptr::null(), Vec::new());
+    let began = std::time::Instant::now();
+    for number in 0..FRAMES {
+        window.hover_at(start + egui::vec2((number as f32 * 0.1).sin() * 60.0, 0.0));
+        window.step();
+        if let Some(preview) = window.state().session().camera_preview()
+            && last != std::sync::Arc::as_ptr(preview)
+        {
+            (fresh, last) = (fresh + 1, std::sync::Arc::as_ptr(preview));
+            steps.push(f64::from(preview.step));
+        }
+        sleep((FRAME * (number + 1)).saturating_sub(began.elapsed()));
+    }
+    let rate = f64::from(fresh) / began.elapsed().as_secs_f64();
+    let step = median(steps);
+    println!(
+        "the camera of {scene} dragged at 30 frames a second, 640x480: {rate:.1} pictures a second, {:.1} % of the \
+         pixels traced",
+        100.0 / (step * step)
+    );
 }
 
 /// Repeats paced runs for `seconds` seconds, scrubs through each of them, and prints the memory; needs xdotool too.

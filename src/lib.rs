@@ -10,6 +10,7 @@ pub mod geometry; // rays, boxes, rotations in degrees
 pub mod language; // texts in English and Portuguese
 pub mod output; // writes a file as a whole or not at all
 pub mod palette; // the colours of nodes, and neutral colours
+pub mod parallel; // independent work on several cores
 pub mod sentence; // quotes from files in error messages
 pub mod time; // nanoseconds since the start of the run
 

@@ -20,11 +20,12 @@ use std::time::Duration;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::driver::{auto_pace, cores};
+use crate::driver::auto_pace;
 use crate::gui::{self, Opening, Settings};
 use crate::interrupt;
 use crate::language::Language;
 use crate::output::{as_file_name, check_ending, check_writable, is_same_file, remove_temporary_files};
+use crate::parallel::cores;
 use crate::runlog::{Header, RunLog, is_run_file};
 use crate::scene::{Opened, Scene};
 use crate::tracer::Tracer;

@@ -2,8 +2,9 @@
 
 use super::args::{PaceArg, RenderArgs};
 use crate::balance::{Rules, Scheduler, Strategy};
-use crate::driver::{auto_pace, cores};
+use crate::driver::auto_pace;
 use crate::gui::SpeedPreset;
+use crate::parallel::cores;
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, LinkSettings, Metadata, OwnLink};
 use crate::scene::Opened;

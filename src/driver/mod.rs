@@ -28,7 +28,6 @@ mod node_thread;
 mod pace;
 mod pair_threads;
 mod panic_guard;
-mod parallel;
 mod parent_thread;
 mod picture_cache;
 mod probe;
@@ -47,8 +46,7 @@ mod supervisor;
 mod worker;
 
 pub use error::{RunError, ThreadError, UntraceableAtom};
-pub use pace::{auto_pace, cores};
-pub use parallel::map_on_all_cores;
+pub use pace::auto_pace;
 pub use picture_cache::PictureCache;
 pub use probe::{Probe, probe};
 pub use render_all::{CostedPicture, PartialPicture, RAY_COST, TracedPicture};

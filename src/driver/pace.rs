@@ -1,12 +1,5 @@
 //! The pace: how fast the reference machine can be emulated on this computer.
 
-use std::thread;
-
-/// Returns the number of cores of this computer.
-pub fn cores() -> usize {
-    thread::available_parallelism().map_or(1, usize::from)
-}
-
 /// Returns the pace at which a computer of `cores` cores can emulate machines of these `speeds`: 1, without any
 /// waiting, if every speed is 1; else the pace that leaves 0.6 of the computer idle, since at twice that load the
 /// threads slow each other down by 1–2 %.

@@ -9,10 +9,10 @@ use std::time::Duration;
 
 use super::TracePixels;
 use super::error::ThreadError;
-use super::pace::cores;
 use super::supervisor::Threads;
 use super::worker::trace_pieces;
 use crate::cancel::CancelToken;
+use crate::parallel::cores;
 use crate::picture::{Atom, Colour, Division, Frame, Size};
 use crate::sim::PixelCosts;
 use crate::tracer::{RayCounts, Scratch, Tracer};

@@ -8,12 +8,12 @@ use std::thread;
 use crossbeam_channel::{Receiver, Sender};
 
 use super::error::RunError;
-use super::pace::cores;
 use super::retrace_plan::plan;
 use super::supervisor::{Supervisor, Threads};
 use super::worker::trace_pieces;
 use super::{TracePixels, Update};
 use crate::cancel::CancelToken;
+use crate::parallel::cores;
 use crate::picture::Colour;
 use crate::runlog::RunLog;
 use crate::tracer::{Scratch, Tracer};

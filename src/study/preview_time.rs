@@ -26,7 +26,7 @@ impl PreviewTimes {
         let begun = ThreadTime::now();
         let mut tracer = compile();
         let compiled = begun.elapsed().as_secs_f64();
-        tracer.refine();
+        tracer.refine(1);
         let first = begun.elapsed().as_secs_f64();
         let (with, without) = (trace_timed(&tracer), trace_timed(&compile()));
         let [exact, plain] = [first + with.cpu.as_secs_f64(), compiled + without.cpu.as_secs_f64()];

@@ -9,7 +9,7 @@ use super::StudyError;
 use super::fixture::{AtomCosts, Fixture, STRATEGIES, simulate};
 use super::progress::{Progress, ProgressSink};
 use crate::balance::Rules;
-use crate::driver::map_on_all_cores;
+use crate::parallel::{cores, map_on_threads};
 use crate::picture::{Division, Size};
 use crate::runlog::{Driver, Header, LinkSettings};
 use crate::scene::Opened;
@@ -75,7 +75,7 @@ pub(super) fn measure(scene: &Opened, tell: ProgressSink<'_>) -> Result<Vec<Scal
             let (costs, size) = if weak { resample(&strong, nodes)? } else { (strong.clone(), size) };
             let runs: Vec<_> =
                 NETWORKS_MS.into_iter().flat_map(|network| STRATEGIES.map(|strategy| (network, strategy))).collect();
-            rows.extend(map_on_all_cores(&runs, |(network, strategy)| {
+            rows.extend(map_on_threads(cores(), &runs, |(network, strategy)| {
                 let plain = fixture.header(ATOM_PX, strategy.clone(), vec![1.0; nodes]);
                 let plain = Header { size, division: Division::new(size.pixels(), ATOM_PX), ..plain };
                 row(plain, *network, weak, &costs)

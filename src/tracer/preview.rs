@@ -4,6 +4,7 @@
 
 use super::observer::NoObserver;
 use super::{RayCounts, Scratch, Tracer};
+use crate::parallel::map_on_threads;
 use crate::picture::{Colour, Size};
 
 /// Evenly spread pixels of a picture.
@@ -47,7 +48,13 @@ impl Preview {
         is_known.then(|| &self.known[(y / self.step * self.shape().0 + x / self.step) as usize])
     }
 
-    fn shape(&self) -> (u32, u32) {
+    /// The known colours in scan order.
+    pub fn colours(&self) -> impl Iterator<Item = Colour> {
+        self.known.iter().map(|(colour, _)| *colour)
+    }
+
+    /// The numbers of columns and of rows with known pixels.
+    pub fn shape(&self) -> (u32, u32) {
         (self.size.width().div_ceil(self.step), self.size.height().div_ceil(self.step))
     }
 }
@@ -58,23 +65,24 @@ impl Tracer {
         self.preview.as_ref()
     }
 
-    /// Begins a preview, or halves its step, down to the whole picture. The rays are counted when the picture is
-    /// traced.
-    pub fn refine(&mut self) {
+    /// Begins a preview, or halves its step, down to the whole picture, on `threads` threads. The rays are counted when
+    /// the picture is traced.
+    pub fn refine(&mut self, threads: usize) {
         let step = self.preview.as_ref().map_or(Preview::COARSEST, |preview| (preview.step / 2).max(1));
-        let mut finer = Preview { size: self.size, step, known: Vec::new() };
-        let mut scratch = Scratch::default();
-        for y in (0..self.size.height()).step_by(step as usize) {
-            for x in (0..self.size.width()).step_by(step as usize) {
+        let rows: Vec<u32> = (0..self.size.height()).step_by(step as usize).collect();
+        let known = map_on_threads(threads, &rows, |&y| {
+            let mut scratch = Scratch::default();
+            let trace = |x: u32| {
                 let pixel = y * self.size.width() + x;
                 let known = self.preview.as_ref().and_then(|coarser| coarser.get(pixel)).copied();
-                finer.known.push(known.unwrap_or_else(|| {
+                known.unwrap_or_else(|| {
                     scratch.rays = RayCounts::default();
                     (self.pixel(pixel, &mut scratch, &mut NoObserver), scratch.rays)
-                }));
-            }
-        }
-        self.preview = Some(finer);
+                })
+            };
+            (0..self.size.width()).step_by(step as usize).map(trace).collect::<Vec<_>>()
+        });
+        self.preview = Some(Preview { size: self.size, step, known: known.concat() });
     }
 
     /// The colour of the pixel at this position in scan order, from the preview or traced now.

@@ -112,7 +112,7 @@ fn preview_does_not_change_the_picture_or_its_rays() {
         let mut tracer = Tracer::new(&scene, size, Quality::default());
         let plain = traced(&tracer);
         for step in [16, 8, 4, 2, 1] {
-            tracer.refine();
+            tracer.refine(3);
             let preview = tracer.preview().expect("a preview");
             assert_eq!(preview.step(), step);
             for (x, y) in [(0, 0), (16, 32), (64, 16)] {

@@ -101,9 +101,8 @@ impl PicturePanel {
             // Where nothing is traced yet, the frame says where the picture will be.
             painter.rect_stroke(frame, 0.0, Stroke::new(1.0, look.hairline), StrokeKind::Inside);
         }
-        if let Some((_, texture)) = &self.preview {
-            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            painter.image(texture.id(), frame, whole, Color32::WHITE);
+        if let Some((preview, texture)) = &self.preview {
+            painter.image(texture.id(), frame, place_in_texture(preview), Color32::WHITE);
         }
         self.tell_of_camera(&response, session);
         if self.moves_camera || session.is_camera_moved() {
@@ -377,10 +376,22 @@ impl PicturePanel {
 
 /// Uploads a camera preview; `None` if it exceeds the largest texture.
 fn texture_of(ui: &Ui, preview: &CameraPreview) -> Option<TextureHandle> {
-    let [width, height] = [preview.size.width(), preview.size.height()].map(|side| side as usize);
+    let (width, height) = (preview.shape.0 as usize, preview.shape.1 as usize);
     let max_side = ui.input(|input| input.max_texture_side);
     let image = || ColorImage::new([width, height], preview.pixels.iter().map(|&pixel| theme::colour(pixel)).collect());
     (width.max(height) <= max_side).then(|| ui.ctx().load_texture("moved", image(), TextureOptions::LINEAR))
+}
+
+/// The part of a camera preview's texture that fills the picture: the middle of its first texel is that of the first
+/// pixel, and the next texel's middle is `step` pixels further.
+fn place_in_texture(preview: &CameraPreview) -> Rect {
+    let CameraPreview { size, step, shape, .. } = preview;
+    let place = |pixel: f32, texels: u32| ((pixel - 0.5) / *step as f32 + 0.5) / texels as f32;
+    let end = |side: u32, texels: u32| place(side as f32, texels);
+    Rect::from_min_max(
+        pos2(place(0.0, shape.0), place(0.0, shape.1)),
+        pos2(end(size.width(), shape.0), end(size.height(), shape.1)),
+    )
 }
 
 /// Returns column and row of the pixel at a position in the picture, in its pixels; the nearest one if it is outside.
@@ -429,6 +440,31 @@ fn cross_hair(painter: &Painter, centre: Pos2, side: f32) {
     for stroke in [Stroke::new(4.0, Color32::BLACK), Stroke::new(1.75, Color32::WHITE)] {
         for way in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
             painter.line_segment([centre + way * inner, centre + way * outer], stroke);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::Size;
+
+    #[test]
+    fn traced_pixels_lie_in_the_middle_of_their_texels() {
+        for step in [1, 2, 4, 16] {
+            let size = Size::new(37, 20).expect("a small picture");
+            let shape = (37_u32.div_ceil(step), 20_u32.div_ceil(step));
+            let place = place_in_texture(&CameraPreview { size, step, shape, pixels: Vec::new() });
+            for column in 0..shape.0 {
+                let middle = ((column * step) as f32 + 0.5) / 37.0;
+                let texel = (column as f32 + 0.5) / shape.0 as f32;
+                assert!((place.left() + place.width() * middle - texel).abs() < 1e-6, "{column} at step {step}");
+            }
+            for row in 0..shape.1 {
+                let middle = ((row * step) as f32 + 0.5) / 20.0;
+                let texel = (row as f32 + 0.5) / shape.1 as f32;
+                assert!((place.top() + place.height() * middle - texel).abs() < 1e-6, "{row} at step {step}");
+            }
         }
     }
 }

@@ -200,10 +200,14 @@ pub struct PreparedLesson {
     pub values: Vec<Vec<Option<f64>>>,
 }
 
-/// A coarse picture from a moved camera.
+/// A coarse picture from a moved camera: every `step`-th pixel of every `step`-th row.
 pub struct CameraPreview {
-    /// Width and height.
+    /// Width and height of the whole picture.
     pub size: Size,
-    /// All pixels in scan order.
-    pub pixels: Arc<[Rgb]>,
+    /// The distance between traced pixels.
+    pub step: u32,
+    /// The numbers of columns and of rows with traced pixels.
+    pub shape: (u32, u32),
+    /// The traced pixels in scan order.
+    pub pixels: Vec<Rgb>,
 }

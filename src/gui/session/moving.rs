@@ -7,10 +7,10 @@ use super::Session;
 use super::job_result::{CameraPreview, JobResult};
 use super::jobs::Jobs;
 use super::opening::Opening;
-use super::preview::{preview_pixels, with_preview};
+use super::preview::with_preview;
 use crate::language::{Language, word};
-use crate::picture::{Quality, Size};
-use crate::scene::{Camera, Scene};
+use crate::picture::{Quality, Size, srgb8};
+use crate::scene::{Camera, Opened, Scene};
 use crate::tracer::Tracer;
 
 /// A moved camera and its preview.
@@ -29,8 +29,12 @@ pub(super) struct CameraMove {
 /// Seconds without movement after which the run restarts from the camera's position.
 const SETTLE_S: f64 = 0.4;
 
-/// Time limit of a preview; its first, coarsest step is always made.
-const PREVIEW_TIME: Duration = Duration::from_millis(30);
+/// Time limit of a preview, for 30 a second; its first, coarsest step is always made.
+const PREVIEW_TIME: Duration = Duration::from_millis(33);
+
+/// While the camera moves, a ray's weakest descendants up to this total weight are left out: nobody sees them in a
+/// coarse picture, and it is finer for the time that they would take.
+const PREVIEW_CUTOFF: f64 = 0.2;
 
 impl Session {
     /// Moves the camera. In a recorded run it only shows a notice.
@@ -144,19 +148,24 @@ impl Session {
         }
         moving.is_busy = true;
         self.camera_jobs += 1;
-        let scene = Scene { camera: moving.camera, ..prepared.opened.scene.clone() };
-        self.jobs.preview(scene, prepared.size, prepared.quality, language);
+        self.jobs.preview((Arc::clone(&prepared.opened), moving.camera), prepared.size, prepared.quality, language);
     }
 }
 
 impl Jobs {
     /// Traces a coarse preview of the scene, as fine as the time limit allows.
-    fn preview(&mut self, scene: Scene, size: Size, quality: Quality, language: Language) {
-        self.start(language, "camera", move || JobResult::CameraPreview(preview(&scene, size, quality)));
+    fn preview(&mut self, (opened, camera): (Arc<Opened>, Camera), size: Size, quality: Quality, language: Language) {
+        self.start(language, "camera", move || {
+            let scene = Scene { camera, ..opened.scene.clone() };
+            JobResult::CameraPreview(preview(&scene, size, quality))
+        });
     }
 }
 
 fn preview(scene: &Scene, size: Size, quality: Quality) -> CameraPreview {
-    let tracer = Tracer::new(scene, size, Quality { samples: 1, ..quality });
-    CameraPreview { size, pixels: preview_pixels(&with_preview(tracer, 1, PREVIEW_TIME)) }
+    let quality = Quality { samples: 1, cutoff: quality.cutoff.max(PREVIEW_CUTOFF), ..quality };
+    let tracer = with_preview(Tracer::new(scene, size, quality), 1, PREVIEW_TIME);
+    let preview = tracer.preview().map(|preview| (preview.step(), preview.shape(), preview.colours()));
+    let (step, shape, colours) = preview.expect("it was refined at least once");
+    CameraPreview { size, step, shape, pixels: colours.map(srgb8).collect() }
 }

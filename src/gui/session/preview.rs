@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use super::job_result::Thumbnail;
 use crate::cancel::CancelToken;
 use crate::palette::Rgb;
+use crate::parallel::cores;
 use crate::picture::{Colour, Frame, Quality, Size, srgb8};
 use crate::scene::Scene;
 use crate::tracer::{Scratch, Tracer};
@@ -22,7 +23,7 @@ pub(super) const PREVIEW_STEP: u32 = 4;
 pub(super) fn with_preview(mut tracer: Tracer, finest: u32, limit: Duration) -> Tracer {
     let begun = Instant::now();
     loop {
-        tracer.refine();
+        tracer.refine(cores());
         let is_fine = tracer.preview().is_none_or(|preview| preview.step() <= finest);
         // The next step takes three times as long as all steps before it.
         if is_fine || 4 * begun.elapsed() > limit {

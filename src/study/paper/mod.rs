@@ -14,7 +14,7 @@ use super::fixture::{Fixture, estimate_cost};
 use super::progress::Progress;
 use super::rivals::{self, RivalRow};
 use super::{ProgressSink, Study, StudyError};
-use crate::driver::cores;
+use crate::parallel::cores;
 use crate::picture::{Quality, Size};
 use crate::scene::Opened;
 use crate::tracer::Tracer;
