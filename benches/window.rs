@@ -162,12 +162,12 @@ fn running(what: &str, settings: &str, shows_timeline: bool) {
     print_times(what, times);
 }
 
-/// Drags the camera of a scene for some seconds at 30 frames a second, and prints how many of the frames show a new
+/// Drags the camera of a scene for some seconds at 60 frames a second, and prints how many of the frames show a new
 /// picture, and how fine it is.
 #[expect(clippy::disallowed_methods, reason = "frames come at the times of a display")]
 fn drag(scene: &str) {
-    const FRAMES: u32 = 150;
-    const FRAME: Duration = Duration::from_nanos(1_000_000_000 / 30);
+    const FRAMES: u32 = 300;
+    const FRAME: Duration = Duration::from_nanos(1_000_000_000 / 60);
     let settings = r#"(settings: (size: (width: 640, height: 480), tempo: Full))"#;
     let mut window = harness(settings, Opening::read(scene).expect("a scene"));
     let until = |window: &mut Harness<'static, App>, is_true: &dyn Fn(&Phase) -> bool| {
@@ -199,7 +199,7 @@ fn drag(scene: &str) {
     let rate = f64::from(fresh) / began.elapsed().as_secs_f64();
     let step = median(steps);
     println!(
-        "the camera of {scene} dragged at 30 frames a second, 640x480: {rate:.1} pictures a second, {:.1} % of the \
+        "the camera of {scene} dragged at 60 frames a second, 640x480: {rate:.1} pictures a second, {:.1} % of the \
          pixels traced",
         100.0 / (step * step)
     );

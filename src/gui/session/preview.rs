@@ -22,13 +22,16 @@ pub(super) const PREVIEW_STEP: u32 = 4;
 #[expect(clippy::disallowed_methods, reason = "the user's waiting time is not on the run's clock")]
 pub(super) fn with_preview(mut tracer: Tracer, finest: u32, limit: Duration) -> Tracer {
     let begun = Instant::now();
+    let mut before = Duration::ZERO;
     loop {
         tracer.refine(cores());
         let is_fine = tracer.preview().is_none_or(|preview| preview.step() <= finest);
-        // The next step takes three times as long as all steps before it.
-        if is_fine || 4 * begun.elapsed() > limit {
+        let now = begun.elapsed();
+        // The next step has four times the pixels of this one.
+        if is_fine || now + 4 * (now - before) > limit {
             return tracer;
         }
+        before = now;
     }
 }
 
