@@ -11,7 +11,7 @@ const FRAME_INTERVAL: Duration = Duration::from_millis(33);
 /// Interval while only the clock changes; a movement is noticed within this time.
 const IDLE_INTERVAL: Duration = Duration::from_millis(250);
 /// Longest interval while something moves; with longer ones the run seems to have stopped.
-const MAX_INTERVAL: Duration = Duration::from_millis(400);
+const MAX_INTERVAL: Duration = Duration::from_millis(500);
 /// Share of one core that the window's thread takes while there is no input and the run needs every core. With software
 /// OpenGL its threads and the display's take about ten times as much again.
 const CORE_SHARE: f64 = 0.005;
