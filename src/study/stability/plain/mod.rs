@@ -76,6 +76,8 @@ fn is_beside_another_face(samples: &[Sample], size: Size, pixel: u32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::csg::{Pass, Passes};
+    use crate::scene::BUILT_IN;
 
     /// `ANEL_PLAIN_SCENES=2000 cargo test --lib plain -- --nocapture` tries more scenes.
     #[test]
@@ -97,6 +99,40 @@ mod tests {
         let Comparison { pixels, wrong, at_edges, .. } = total;
         println!("{scenes} scenes, {pixels} pixels: {wrong} wrong, {at_edges} differ beside an edge");
         assert_eq!(wrong, 0, "{examples}");
+    }
+
+    /// The passes that save work by leaving it out. The others compute the same in another way, and so round otherwise.
+    const OMITTING: [Pass; 7] = [
+        Pass::CullEmpty,
+        Pass::FoundBounds,
+        Pass::UnionTrees,
+        Pass::CompositionBounds,
+        Pass::SplitUnions,
+        Pass::LocalParts,
+        Pass::Bvh,
+    ];
+
+    /// With `ANEL_PLAIN_SCENES` it tries more random scenes, and the built-in ones at 80 × 60 pixels.
+    #[test]
+    fn no_bit_of_a_picture_depends_on_what_is_left_out() {
+        let long = std::env::var("ANEL_PLAIN_SCENES").ok().and_then(|number| number.parse().ok());
+        let random = (0..long.unwrap_or(100)).map(|seed| (format!("seed {seed}"), random_scene(seed), "32x24"));
+        let size = if long.is_some() { "80x60" } else { "16x12" };
+        let built_in = BUILT_IN.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned(), size));
+        for (name, text, size) in random.chain(built_in) {
+            let scene = Scene::parse(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+            let size: Size = size.parse().expect("a size");
+            let picture = |passes| {
+                let mut pixels = Vec::new();
+                let tracer = Tracer::with_passes(&scene, size, Quality::default(), passes);
+                tracer.trace(0..size.pixels(), &mut Scratch::default(), &mut pixels);
+                pixels.into_iter().map(|pixel| pixel.map(f32::to_bits)).collect::<Vec<_>>()
+            };
+            let all = picture(Passes::default());
+            let none = picture(OMITTING.into_iter().fold(Passes::default(), Passes::without));
+            let differing = all.iter().zip(&none).filter(|(a, b)| a != b).count();
+            assert_eq!(differing, 0, "pixels of {name}");
+        }
     }
 
     #[test]
