@@ -2,8 +2,9 @@
 //!
 //! They depend on the computer, which must be otherwise idle; none of them is asserted.
 
-use std::process::Command;
+mod common;
 
+use common::{median, render};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -12,8 +13,8 @@ const SIZE: &str = "1280x960";
 
 fn main() {
     let directory = TempDir::new().expect("a temporary directory");
-    let out = directory.path().join("out.png").to_string_lossy().into_owned();
-    let render = |scene: &str, rest: &[&str]| render(scene, &out, rest);
+    let out = directory.path().join("out.png");
+    let render = |scene: &str, rest: &[&str]| render(scene, SIZE, &out, rest);
 
     println!("paced at 0.2 of a core, {SIZE}, ten-objects: efficiency (ideal / makespan), overhead over serial CPU");
     paced("four equal nodes", &["--nodes", "4"], &render);
@@ -43,16 +44,6 @@ fn main() {
     println!("  two runs of 1 node at once {both:.3}: the computer itself gives {ceiling:.3} times");
 }
 
-/// Renders a scene. Returns the JSON report of the run.
-fn render(scene: &str, out: &str, rest: &[&str]) -> Value {
-    let output = Command::new(env!("CARGO_BIN_EXE_anel"))
-        .args(["render", scene, "--out", out, "--size", SIZE, "--json"])
-        .args(rest)
-        .output()
-        .expect("the program can be started");
-    serde_json::from_slice(&output.stdout).expect("one JSON object")
-}
-
 /// Prints efficiency and overhead of paced runs.
 fn paced(what: &str, nodes: &[&str], render: &impl Fn(&str, &[&str]) -> Value) {
     let rest = [nodes, &["--pace", "0.2"]].concat();
@@ -64,10 +55,4 @@ fn paced(what: &str, nodes: &[&str], render: &impl Fn(&str, &[&str]) -> Value) {
 
 fn number(value: &Value, field: &str) -> f64 {
     value[field].as_f64().unwrap_or(f64::NAN)
-}
-
-fn median(numbers: impl Iterator<Item = f64>) -> f64 {
-    let mut numbers: Vec<f64> = numbers.collect();
-    numbers.sort_by(f64::total_cmp);
-    numbers[numbers.len() / 2]
 }

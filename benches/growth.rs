@@ -1,16 +1,22 @@
-//! How time, compiling and memory grow with the number of primitives: `cargo bench --bench growth`.
+//! How time, compiling and memory grow with the number of primitives: `cargo bench --bench growth`; `-- svg FILE` also
+//! draws the time.
 //!
 //! Three families of scenes fill the same part of the picture whatever their number of primitives: a union of balls, a
 //! block with pits, and a mixed tree. Each scene is measured in a process of its own: the seconds to read its file and
 //! to compile it, the nanoseconds of a ray (one thread, the median of several pictures), and the greatest memory of the
 //! process, which only Linux tells. The figures depend on the computer; none of them is asserted.
 
+mod common;
+
 use std::fmt::Write;
 use std::process::Command;
 
+use anel::language::Language;
 use anel::picture::{Quality, Size};
 use anel::scene::Opened;
 use anel::tracer::{Scratch, Tracer};
+use anel::view::{Axis, CHART_SIZE, LineChart, Scale, Series, Style, series_hue};
+use common::{median, take_svg, write_svg};
 use cpu_time::ThreadTime;
 
 const COUNTS: [usize; 5] = [10, 100, 1_000, 10_000, 60_000];
@@ -23,15 +29,17 @@ type Family = (&'static str, fn(usize) -> String);
 const FAMILIES: [Family; 3] = [("union of balls", balls), ("block with pits", pits), ("mixed tree", mixed)];
 
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let mut arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     if let [family, count] = &arguments[..] {
         let (_, solid) = FAMILIES.into_iter().find(|(name, _)| name == family).expect("a family");
         return measure(&solid(count.parse().expect("a number of primitives")));
     }
+    let svg = take_svg(&mut arguments);
+    let mut all = Vec::new();
     println!("primitives: seconds to read and to compile, ns a ray (and times that of the first), MB");
     for (name, _) in FAMILIES {
         println!("{name}:");
-        let mut first = None;
+        let (mut first, mut points) = (None, Vec::new());
         for count in COUNTS {
             let own = std::env::current_exe().expect("the path of this program");
             let output = Command::new(own).args([name, &count.to_string()]).output().expect("it can be started");
@@ -41,8 +49,32 @@ fn main() {
                 panic!("no figures of {name}, {count}: {}", String::from_utf8_lossy(&output.stderr));
             };
             let growth = ray / *first.get_or_insert(ray);
+            points.push((leaves, ray));
             println!("  {leaves:6}: {read:6.3} {compile:6.3}  {ray:6.0} (×{growth:.2})  {memory:5.0}");
         }
+        all.push((name, points));
+    }
+    if let Some(file) = svg {
+        write_svg(&file, &chart(all).marks(CHART_SIZE, Language::English));
+    }
+}
+
+/// Charts the time of a ray.
+fn chart(families: Vec<(&'static str, Vec<(f64, f64)>)>) -> LineChart {
+    let axis = |label: &str, scale| Axis { label: label.into(), scale, range: None };
+    let hues = (0..).map(series_hue);
+    let series = families.into_iter().zip(hues).map(|((name, points), hue)| Series {
+        name: name.into(),
+        hue,
+        points,
+        style: Style::Line,
+    });
+    LineChart {
+        title: "A ray among many primitives".into(),
+        note: "What is visible stays the same; one thread".into(),
+        x: axis("primitives", Scale::Log10),
+        y: axis("ns a ray", Scale::Linear),
+        series: series.collect(),
     }
 }
 
@@ -64,13 +96,12 @@ fn measure(solid: &str) {
     let size = Size::new(320, 240).expect("a picture");
     let tracer = Tracer::new(&opened.scene, size, Quality::default());
     let compile = before.elapsed();
-    let mut times: Vec<f64> = (0..RUNS).map(|_| nanoseconds_a_ray(&tracer, size)).collect();
-    times.sort_by(f64::total_cmp);
+    let ray = median((0..RUNS).map(|_| nanoseconds_a_ray(&tracer, size)));
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let greatest = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB"));
     let memory = greatest.and_then(|kilobytes| kilobytes.parse::<f64>().ok()).unwrap_or(f64::NAN) / 1024.0;
     let leaves = ["Sphere(", "Box("].iter().map(|primitive| solid.matches(primitive).count()).sum::<usize>();
-    println!("{leaves} {} {} {} {memory}", read.as_secs_f64(), compile.as_secs_f64(), times[RUNS / 2]);
+    println!("{leaves} {} {} {ray} {memory}", read.as_secs_f64(), compile.as_secs_f64());
 }
 
 fn nanoseconds_a_ray(tracer: &Tracer, size: Size) -> f64 {

@@ -1,13 +1,17 @@
 //! The time of one thread beside POV-Ray's, on the same pictures: `cargo bench --bench peers`, or with names of scenes
-//! or scene files behind `--`.
+//! or scene files behind `--`. `svg FILE` also draws the ratios.
 //!
 //! Each program traces each scene several times in turn, one thread, no antialiasing; a figure is the median. Both
 //! count CPU seconds of tracing alone. The figures depend on the computer, which must be otherwise idle.
 
+mod common;
+
 use std::path::Path;
 use std::process::Command;
 
-use serde_json::Value;
+use anel::language::Language;
+use anel::view::{Axis, Bar, BarChart, CHART_SIZE, Scale};
+use common::{median, take_svg, write_svg};
 use tempfile::TempDir;
 
 /// Runs of each program and scene.
@@ -22,15 +26,35 @@ const TOO_SLOW: f64 = 20.0;
 
 fn main() {
     let directory = TempDir::new().expect("a temporary directory");
-    let named: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    let mut named: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    let svg = take_svg(&mut named);
     let built_in = || anel::scene::BUILT_IN.iter().map(|(name, _)| (*name).to_owned()).collect();
-    println!("seconds of one thread, POV-Ray's over ours, and pixels that differ by more than 2 of 255:");
+    println!("| scene | size | our CPU s | POV-Ray's | ratio | pixels that differ by more than 2 of 255 |");
+    println!("|---|---|---:|---:|---:|---:|");
+    let mut ratios = Vec::new();
     for scene in if named.is_empty() { built_in() } else { named } {
         let bench = Bench { scene, directory: directory.path() };
         match bench.size() {
-            Some(size) => bench.compare(size),
-            None => println!("  {:<16} {:8.3}; povray is not installed", bench.scene, bench.ours(SIZES[1])),
+            Some(size) => ratios.push((bench.scene.clone(), bench.compare(size))),
+            None => println!("| {} | 640×480 | {:.3} | not installed | | |", bench.scene, bench.ours(SIZES[1])),
         }
+    }
+    if let Some(file) = svg {
+        write_svg(&file, &chart(&ratios).marks(CHART_SIZE, Language::English));
+    }
+}
+
+/// Charts how many times as long POV-Ray takes.
+fn chart(ratios: &[(String, f64)]) -> BarChart {
+    let group = |(scene, ratio): &(String, f64)| {
+        (scene.clone(), vec![Bar { name: "POV-Ray's time over ours".into(), value: *ratio, other: None }])
+    };
+    BarChart {
+        title: "POV-Ray 3.7 beside anel".into(),
+        note: "CPU seconds of tracing, one thread, no antialiasing; the line is the same time".into(),
+        y: Axis { label: "times as long".into(), scale: Scale::Log10, range: None },
+        groups: ratios.iter().map(group).collect(),
+        reference: Some(1.0),
     }
 }
 
@@ -50,30 +74,22 @@ impl Bench<'_> {
         Some(if self.ours(usual) < TOO_FAST { large } else { usual })
     }
 
-    fn compare(&self, size: [u32; 2]) {
+    /// Prints the times of both programs. Returns POV-Ray's over ours.
+    fn compare(&self, size: [u32; 2]) -> f64 {
         let turns: Vec<(f64, f64)> = (0..RUNS).filter_map(|_| Some((self.ours(size), self.theirs(size)?))).collect();
         let ours = median(turns.iter().map(|(ours, _)| *ours));
         let theirs = median(turns.iter().map(|(_, theirs)| *theirs));
         let ratio = median(turns.iter().map(|(ours, theirs)| theirs / ours));
         let [width, height] = size;
         let differing = self.differing();
-        println!(
-            "  {:<16} {width:4}×{height:<4} {ours:8.3} {theirs:8.3}  {ratio:6.2} times; {differing} pixels differ",
-            self.scene
-        );
+        println!("| {} | {width}×{height} | {ours:.3} | {theirs:.3} | {ratio:.2} | {differing} |", self.scene);
+        ratio
     }
 
     /// Traces the scene with one thread. Returns the CPU seconds of tracing.
     fn ours(&self, [width, height]: [u32; 2]) -> f64 {
-        let size = format!("{width}x{height}");
-        let output = Command::new(env!("CARGO_BIN_EXE_anel"))
-            .args(["render", &self.scene, "--strategy", "serial", "--json", "--size", &size, "--out"])
-            .arg(self.directory.join("ours.png"))
-            .output()
-            .expect("the program can be started");
-        let run: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|_| {
-            panic!("no figures of {}: {}", self.scene, String::from_utf8_lossy(&output.stderr));
-        });
+        let (size, out) = (format!("{width}x{height}"), self.directory.join("ours.png"));
+        let run = common::render(&self.scene, &size, &out, &["--strategy", "serial"]);
         run["work_s"].as_f64().unwrap_or(f64::NAN)
     }
 
@@ -110,10 +126,4 @@ fn trace_seconds(said: &str) -> Option<f64> {
     let (_, trace_time) = said.split_once("Trace Time:")?;
     let (_, seconds) = trace_time.split_once("thread(s) with ")?;
     seconds.split(' ').next()?.parse().ok()
-}
-
-fn median(numbers: impl Iterator<Item = f64>) -> f64 {
-    let mut numbers: Vec<f64> = numbers.collect();
-    numbers.sort_by(f64::total_cmp);
-    numbers.get(numbers.len() / 2).copied().unwrap_or(f64::NAN)
 }
