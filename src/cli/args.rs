@@ -133,6 +133,8 @@ pub(super) enum StudyKind {
     Rivals,
     /// Cases that grow harder until each method fails
     Stability,
+    /// The time and the wrong rays of each method that was tried
+    Methods,
     /// Every pixel compared with POV-Ray's
     Peer,
     /// The parts of a scene that compiling keeps, and the time that this saves

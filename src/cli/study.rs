@@ -10,7 +10,7 @@ use super::{Failure, open, print, progress, tell};
 use crate::output::{check_writable, write_whole};
 use crate::picture::Size;
 use crate::scene::{Opened, SMALL_BUILT_IN};
-use crate::study::{Study, accuracy, chaos, needs, paper, peer, remedies, rivals, scale, stability};
+use crate::study::{Study, accuracy, chaos, methods, needs, paper, peer, remedies, rivals, scale, stability};
 
 /// Does a study and writes its files into the directory `out`, which it creates if needed.
 ///
@@ -28,10 +28,11 @@ pub(super) fn study(
     let first = seeds.0.unwrap_or(0);
     let count = seeds.1.unwrap_or(if seeds.0.is_some() { 1 } else { 10_000 });
     let scenes: Vec<&Path> = match (scene, kind) {
-        (Some(_), StudyKind::Stability) => {
-            return Err(Failure::Refused("stability has its own cases; leave out --scene".into()));
+        (Some(_), StudyKind::Stability | StudyKind::Methods) => {
+            let own = "stability and methods have their own cases; leave out --scene";
+            return Err(Failure::Refused(own.into()));
         }
-        (None, StudyKind::Stability) => Vec::new(),
+        (None, StudyKind::Stability | StudyKind::Methods) => Vec::new(),
         (Some(scene), _) => vec![scene],
         (None, StudyKind::Rivals | StudyKind::Peer | StudyKind::Needs | StudyKind::Accuracy) => {
             SMALL_BUILT_IN.iter().map(|(name, _)| Path::new(*name)).collect()
@@ -56,6 +57,7 @@ pub(super) fn study(
         StudyKind::Peer => peer(&scenes, size, &mut report_step),
         StudyKind::Needs => needs(&scenes, &mut report_step),
         StudyKind::Stability => stability(&mut report_step),
+        StudyKind::Methods => methods(&mut report_step),
         StudyKind::Accuracy => accuracy(&scenes, size, &mut report_step),
         StudyKind::Remedies => remedies(&scenes[0], &mut report_step),
         StudyKind::Chaos => chaos(first..first.saturating_add(count), &scenes[0], &mut report_step),

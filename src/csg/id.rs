@@ -18,6 +18,13 @@ pub struct LeafIndex(pub(super) u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct NodeIndex(pub u32);
 
+impl LeafIndex {
+    /// The leaf of the `number`-th primitive, from 0.
+    pub(crate) fn of(number: u32) -> Self {
+        Self(number)
+    }
+}
+
 impl MaterialTag {
     /// The tag as an index.
     pub fn index(self) -> usize {

@@ -253,6 +253,17 @@ impl Leaf {
         }
     }
 
+    /// Counts the crossings of the leaf's boundary by the ray's whole line.
+    pub(crate) fn count_crossings(&self, ray: &Ray) -> u64 {
+        let Spans { first, second } = self.spans(ray, None);
+        2 * (u64::from(first.is_some()) + u64::from(second.is_some()))
+    }
+
+    /// The distances at which the ray's whole line enters and leaves a leaf that is convex.
+    pub(crate) fn first_span(&self, ray: &Ray) -> Option<[f64; 2]> {
+        self.spans(ray, None).first.map(|span| [span.from, span.to])
+    }
+
     /// The name of the shape that the primitive has become.
     pub fn kind(&self) -> &'static str {
         match &self.shape {

@@ -98,9 +98,9 @@ impl BoxRay {
         self.meets_at(Level::baseline(), boxes, range, entry)
     }
 
-    /// Does the same in vectors of the processor's `level`.
+    /// Does the same in vectors of this `level`.
     #[inline(always)]
-    fn meets_at(&self, level: Level, boxes: &Boxes, range: [f32; 2], entry: &mut [f32; WIDTH]) -> u64 {
+    pub(crate) fn meets_at(&self, level: Level, boxes: &Boxes, range: [f32; 2], entry: &mut [f32; WIDTH]) -> u64 {
         dispatch!(level, simd => meets(simd, self, boxes, range, entry)) & boxes.present
     }
 

@@ -1,9 +1,8 @@
 //! Where methods fail: cases of growing difficulty, for this program's method and for naive ones.
 //!
-//! The truth is computed without rounding ([`exact`]), from the very numbers that the methods get.
+//! The truth is computed without rounding ([`exact`](super::exact)), from the very numbers that the methods get.
 
 mod coincident;
-mod exact;
 mod far;
 mod graze;
 mod lost;
@@ -15,7 +14,7 @@ mod refraction;
 mod report;
 mod scaled;
 mod starts;
-mod torus;
+pub(super) mod torus;
 mod wrong;
 
 use fastrand::Rng;

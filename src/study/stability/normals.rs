@@ -3,8 +3,8 @@
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::super::exact::{cross, dot, vector};
 use super::super::random::{random_rotation, unit_vector};
-use super::exact::{cross, dot, vector};
 use super::placed_primitive::PlacedPrimitive;
 use super::{MethodResult, ResultCounter, StabilityCase, powers_of_10};
 use crate::csg::{LeafIndex, Primitive, Surface};

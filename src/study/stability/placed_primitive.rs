@@ -3,7 +3,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::exact::{Exact, Vector, cross, dot, vector};
+use super::super::exact::{Exact, Vector, cross, dot, vector};
 use crate::csg::{Hit, MaterialTag, Primitive, RayStart, RootId, Solid, Stack, Surface, Tree};
 use crate::geometry::Ray;
 

@@ -3,8 +3,8 @@
 use fastrand::Rng;
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::super::exact::{Exact, dot, vector};
 use super::super::random::{perpendicular, random_rotation, random_sign, uniform, unit_vector};
-use super::exact::{Exact, dot, vector};
 use super::{MethodResult, ResultCounter, StabilityCase, powers_of_2, powers_of_10};
 use crate::csg::{MaterialTag, Primitive, Solid};
 use crate::picture::{Quality, Size};

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use fastrand::Rng;
 use glam::{DAffine3, DVec3};
 
+use super::super::exact::{Exact, dot, vector};
 use super::super::random::{perpendicular, uniform, unit_vector};
-use super::exact::{Exact, dot, vector};
 use super::placed_primitive::PlacedPrimitive;
 use super::{MethodResult, ResultCounter, StabilityCase, powers_of_10};
 use crate::csg::Primitive;
@@ -85,7 +85,7 @@ fn count(tries: u32, rng: &mut Rng, line: impl Fn(&mut Rng) -> (f64, DVec3, DVec
 }
 
 /// Returns the torus's quartic along a ray, the highest power first: (|p|² + 1 − tube²)² − 4 (x² + z²).
-fn quartic(tube: f64, ray: &Ray) -> Vec<Exact> {
+pub(in crate::study) fn quartic(tube: f64, ray: &Ray) -> Vec<Exact> {
     let (o, d, tube) = (vector(ray.origin), vector(ray.direction), Exact::from(tube));
     let (two, four) = (Exact::from(2.0), Exact::from(4.0));
     let round = |p: &[Exact; 3], q: &[Exact; 3]| (&p[0] * &q[0] + &p[2] * &q[2]) * &four;
@@ -101,7 +101,7 @@ fn quartic(tube: f64, ray: &Ray) -> Vec<Exact> {
 }
 
 /// Counts the distinct real roots of a polynomial (Sturm 1829).
-fn distinct_roots(polynomial: &[Exact]) -> usize {
+pub(in crate::study) fn distinct_roots(polynomial: &[Exact]) -> usize {
     let degree = polynomial.len() - 1;
     let exponents = (1..=degree).rev().map(|power| Exact::from(power as f64));
     let derivative: Vec<Exact> =
@@ -140,7 +140,7 @@ fn negative_remainder(a: &[Exact], b: &[Exact]) -> Option<Vec<Exact>> {
 }
 
 /// Counts the real roots that Ferrari's closed form finds, as in textbooks.
-fn closed_form(tube: f64, ray: &Ray) -> usize {
+pub(in crate::study) fn closed_form(tube: f64, ray: &Ray) -> usize {
     let (o, d) = (ray.origin, ray.direction);
     let round = |p: DVec3, q: DVec3| 4.0 * (p.x * q.x + p.z * q.z);
     let (half, k) = (o.dot(d), o.dot(o) + 1.0 - tube * tube);
