@@ -30,11 +30,11 @@ const FAMILIES: [Family; 3] = [("union of balls", balls), ("block with pits", pi
 
 fn main() {
     let mut arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
+    let svg = take_svg(&mut arguments);
     if let [family, count] = &arguments[..] {
         let (_, solid) = FAMILIES.into_iter().find(|(name, _)| name == family).expect("a family");
         return measure(&solid(count.parse().expect("a number of primitives")));
     }
-    let svg = take_svg(&mut arguments);
     let mut all = Vec::new();
     println!("primitives: seconds to read and to compile, ns a ray (and times that of the first), MB");
     for (name, _) in FAMILIES {

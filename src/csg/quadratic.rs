@@ -18,6 +18,7 @@ impl Intervals {
     ///
     /// The roots come from the form that never subtracts nearly equal numbers (Kahan; Press et al., *Numerical
     /// Recipes*, §5.6): with q = −(b ± √(b² − ac)) they are q / a and c / q, which stay accurate as a goes to 0.
+    #[inline(always)]
     pub fn solve(a: f64, b: f64, c: f64) -> Self {
         Self::with_discriminant(a, b, c, b * b - a * c)
     }
@@ -42,6 +43,7 @@ impl Intervals {
     }
 
     /// Solves a t² + 2 b t ≤ 0: the line starts on the surface, so that one root is exactly 0.
+    #[inline(always)]
     pub fn from_surface(a: f64, b: f64) -> Self {
         let other = -2.0 * b / a;
         match a {

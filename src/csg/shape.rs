@@ -421,6 +421,7 @@ impl LocalFrame {
 
 /// Solves relative to the line's closest approach to the origin instead of relative to `o`, which may be far away:
 /// there the coefficients are small and their differences accurate. `d` need not have length 1.
+#[inline(always)]
 fn from_closest_approach(o: DVec3, d: DVec3, solve: impl Fn(DVec3) -> Intervals) -> Intervals {
     let shift = -o.dot(d) / d.length_squared();
     match solve(o + d * shift) {

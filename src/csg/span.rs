@@ -42,6 +42,7 @@ impl Spans {
 
     /// Clips `inside` to the slab between the caps at y = −1 and y = 1. The leaf is convex, so the result is one span:
     /// if rounding at an apex leaves two, the longer.
+    #[inline(always)]
     pub fn capped(inside: Intervals, y: f64, speed: f64, start: Option<u8>) -> Self {
         let mut span = Span { from: f64::NEG_INFINITY, from_face: CURVED, to: f64::INFINITY, to_face: CURVED };
         if !span.clip_slab([-1.0, 1.0], y, speed, BOTTOM_CAP, start) {
