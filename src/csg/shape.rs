@@ -62,7 +62,9 @@ enum Shape {
         square: DMat3,
         half_linear: DVec3,
         constant: f64,
-        magnitudes: Magnitudes,
+        /// [`Magnitudes::greatest`].
+        greatest: f64,
+        magnitudes: Box<Magnitudes>,
     },
 }
 
@@ -78,8 +80,9 @@ struct Magnitudes {
 #[derive(Clone, Debug)]
 struct LocalFrame {
     local_from_scene: DAffine3,
-    /// Outward unit normals of the faces at x = 1, y = 1, z = 1, in scene coordinates.
-    axis_normals: [DVec3; 3],
+    /// Outward unit normals of the faces at x = 1, y = 1, z = 1, in scene coordinates. Apart, since no intersection
+    /// reads them.
+    axis_normals: Box<[DVec3; 3]>,
 }
 
 impl Leaf {
@@ -99,7 +102,7 @@ impl Leaf {
         let frame = || LocalFrame {
             local_from_scene,
             // Normals are transformed by the inverse transpose, whose columns are the rows of the inverse.
-            axis_normals: [0, 1, 2].map(|axis| to_local.row(axis).normalize()),
+            axis_normals: Box::new([0, 1, 2].map(|axis| to_local.row(axis).normalize())),
         };
         let round = |a: DVec3, b: DVec3| (a * a + b * b).map(f64::sqrt);
         let about = |half: DVec3| Aabb { min: centre - half, max: centre + half };
@@ -140,12 +143,14 @@ impl Leaf {
             }
             Primitive::Quadric(q) => {
                 let square = q.square();
+                let magnitudes = Box::new(Magnitudes::new(to_local, square, q.linear / 2.0));
                 let shape = Shape::Quadric {
                     centre,
                     square: to_local.transpose() * square * to_local,
                     half_linear: to_local.transpose() * q.linear / 2.0,
                     constant: q.constant,
-                    magnitudes: Magnitudes::new(to_local, square, q.linear / 2.0),
+                    greatest: magnitudes.greatest,
+                    magnitudes,
                 };
                 (shape, Aabb::ALL)
             }
@@ -233,10 +238,11 @@ impl Leaf {
                 let (o, d) = frame.ray_to_local(ray);
                 torus::spans(*tube, o, d, start.is_some())
             }
-            Shape::Quadric { centre, square, half_linear, constant, magnitudes } => {
+            Shape::Quadric { centre, square, half_linear, constant, greatest, magnitudes } => {
                 let (o, d) = (ray.origin - *centre, ray.direction);
                 let along = *square * d;
-                let a = magnitudes.square_term(along.dot(d), d);
+                let a = along.dot(d);
+                let a = if a.abs() <= PARALLEL_COSINE * greatest { magnitudes.square_term(a, d) } else { a };
                 let half = |o: DVec3| {
                     let b = along.dot(o) + half_linear.dot(d);
                     if a == 0.0 { magnitudes.linear_term(b, o, d) } else { b }
@@ -389,10 +395,9 @@ impl Magnitudes {
     }
 
     /// The square term `a` along `d`; exactly 0 if it is 0 but for rounding (see [`approach`]).
-    #[inline(always)]
+    #[cold]
     fn square_term(&self, a: f64, d: DVec3) -> f64 {
-        let may_be_0 = a.abs() <= PARALLEL_COSINE * self.greatest;
-        if may_be_0 && a.abs() <= PARALLEL_COSINE * (self.square * d.abs()).dot(d.abs()) { 0.0 } else { a }
+        if a.abs() <= PARALLEL_COSINE * (self.square * d.abs()).dot(d.abs()) { 0.0 } else { a }
     }
 
     /// Half the linear term `b` along `d` at `o`; exactly 0 if it is 0 but for rounding.

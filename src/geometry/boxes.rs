@@ -26,13 +26,12 @@ pub struct BoxFrame {
     half: f64,
 }
 
-/// Up to eight boxes, by axis and then by number.
+/// Up to eight boxes, by axis and then by number. What is no box is upside down, so that no ray meets it.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub struct Boxes {
     min: [[f32; WIDTH]; 3],
     max: [[f32; WIDTH]; 3],
-    /// A bit for each box that there is.
-    present: u64,
 }
 
 /// A ray in single precision, for tests of boxes in one frame.
@@ -71,14 +70,14 @@ impl BoxFrame {
 
 impl Boxes {
     /// No boxes.
-    pub const NONE: Self = Self { min: [[f32::INFINITY; WIDTH]; 3], max: [[f32::NEG_INFINITY; WIDTH]; 3], present: 0 };
+    pub const NONE: Self = Self { min: [[f32::INFINITY; WIDTH]; 3], max: [[f32::NEG_INFINITY; WIDTH]; 3] };
 
     /// Adds a box. One that is not finite is met by every ray.
     ///
     /// # Panics
     /// If there are eight.
     pub fn add(&mut self, bounds: Aabb, frame: &BoxFrame) {
-        let place = self.present.count_ones() as usize;
+        let place = self.min[0].iter().position(|min| *min == f32::INFINITY).expect("there is room for a box");
         let bounds = if bounds.is_finite() { bounds } else { Aabb::ALL };
         let room = DVec3::splat(frame.half * ROUNDING);
         let (min, max) = (bounds.min - frame.centre - room, bounds.max - frame.centre + room);
@@ -86,7 +85,6 @@ impl Boxes {
             self.min[axis][place] = (min[axis] as f32).next_down();
             self.max[axis][place] = (max[axis] as f32).next_up();
         }
-        self.present |= 1 << place;
     }
 }
 
@@ -101,7 +99,7 @@ impl BoxRay {
     /// Does the same in vectors of this `level`.
     #[inline(always)]
     pub(crate) fn meets_at(&self, level: Level, boxes: &Boxes, range: [f32; 2], entry: &mut [f32; WIDTH]) -> u64 {
-        dispatch!(level, simd => meets(simd, self, boxes, range, entry)) & boxes.present
+        dispatch!(level, simd => meets(simd, self, boxes, range, entry)) 
     }
 
     /// A distance along the ray as a place, which is relative to the start of the ray's copy. Its rounding is less than
