@@ -16,6 +16,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use super::span::{CURVED, Span, Spans};
+use crate::geometry::{fast_max, fast_min};
 
 /// Computes the spans of the line `o + d t` in the torus. If it starts `on_surface`, one root is exactly 0, whatever
 /// rounding did to `o`.
@@ -102,10 +103,13 @@ fn from_closest_approach(tube: f64, p: DVec3, u: DVec3) -> Roots {
     let value = |place: f64| {
         let q = p + u * place;
         let ring = axis_distance(q);
-        let outward = (q.x * u.x + q.z * u.z) / ring;
-        (implicit(tube, q), 2.0 * ((ring - 1.0) * outward + q.y * u.y))
+        let (height, outward) = (implicit(tube, q), q.x * u.x + q.z * u.z);
+        // The slope is 2 ((ring − 1) outward / ring + q.y u.y).
+        (height, height * ring / (2.0 * ((ring - 1.0) * outward + ring * q.y * u.y)))
     };
-    for_each_root(&range, &extrema.values[..extrema.count], [1.0, 1.0], value, |place| roots.add(place));
+    // The ends are outside, whatever rounding says.
+    let ends = [range.start, range.end].map(|end| fast_max(value(end).0, f64::MIN_POSITIVE));
+    for_each_root(&range, &extrema.values[..extrema.count], ends, value, |place| roots.add(place));
     roots
 }
 
@@ -160,7 +164,10 @@ impl Cubic {
     /// them, so that the number of roots is odd.
     fn roots(&self, range: &Range<f64>, beyond: bool) -> Roots {
         let Self([b, c, e]) = *self;
-        let value = |place: f64| (((place + b) * place + c) * place + e, (3.0 * place + 2.0 * b) * place + c);
+        let value = |place: f64| {
+            let height = ((place + b) * place + c) * place + e;
+            (height, height / ((3.0 * place + 2.0 * b) * place + c))
+        };
         let ends = if beyond { [-1.0, 1.0] } else { [range.start, range.end].map(|end| value(end).0) };
         // Solves 3 τ² + 2 b τ + c = 0 without subtracting nearly equal numbers.
         let discriminant = b * b - 3.0 * c;
@@ -178,7 +185,8 @@ impl Cubic {
 }
 
 /// Visits the roots with a change of sign in `range`, in order. Between two neighbouring `extrema` there is at most
-/// one. `ends` gives the function's signs at the ends of the range; `value` returns the function and its derivative.
+/// one. `ends` gives the function's values at the ends of the range, or others of the same sign; `value` returns the
+/// function, and the function over its derivative: Newton's step.
 fn for_each_root(
     range: &Range<f64>,
     extrema: &[f64],
@@ -186,30 +194,45 @@ fn for_each_root(
     value: impl Fn(f64) -> (f64, f64),
     mut each: impl FnMut(f64),
 ) {
-    let (mut from, mut is_below) = (range.start, ends[0] < 0.0);
+    let mut from = (range.start, ends[0]);
     let inside = extrema.iter().copied().filter(|extremum| range.start < *extremum && *extremum < range.end);
-    for (to, given) in inside.map(|extremum| (extremum, None)).chain([(range.end, Some(ends[1]))]) {
-        let height = given.unwrap_or_else(|| value(to).0);
-        if height == 0.0 {
+    for (place, given) in inside.map(|extremum| (extremum, None)).chain([(range.end, Some(ends[1]))]) {
+        let to = (place, given.unwrap_or_else(|| value(place).0));
+        if to.1 == 0.0 {
             // A function that only touches 0 keeps its sign.
             continue;
         }
-        let is_below_at_end = height < 0.0;
-        if is_below_at_end != is_below {
-            each(root_between(from, to, is_below, &value));
+        if (to.1 < 0.0) != (from.1 < 0.0) {
+            each(root_between(from, to, &value));
         }
-        (from, is_below) = (to, is_below_at_end);
+        from = to;
     }
 }
 
-/// Finds the root between `from` and `to`, where the function changes its sign once; it `rises` if it is below 0 at
-/// `from`.
-fn root_between(mut from: f64, mut to: f64, rises: bool, value: &impl Fn(f64) -> (f64, f64)) -> f64 {
+/// Finds the root between two places, given with the function's values, where it changes its sign once.
+fn root_between(
+    (start, height_at_start): (f64, f64),
+    (end, height_at_end): (f64, f64),
+    value: &impl Fn(f64) -> (f64, f64),
+) -> f64 {
     /// Newton's method needs a few steps; bisection needs as many as there are bits.
     const MAX_STEPS: usize = 64;
-    let mut place = from.midpoint(to);
+    /// A step of at most this part of the distance to the nearest extremum is the last: the next one would be of this
+    /// part of the step.
+    const LAST_STEP: f64 = 1e-8;
+    let (mut from, mut to, rises) = (start, end, height_at_start < 0.0);
+    // As on a parabola whose apex is at the end with the lower value.
+    let (low, high) = (height_at_start.abs(), height_at_end.abs());
+    let mut place = if low < high {
+        start + (end - start) * (low / (low + high)).sqrt()
+    } else {
+        end - (end - start) * (high / (low + high)).sqrt()
+    };
+    if !(start < place && place < end) {
+        place = start.midpoint(end);
+    }
     for _ in 0..MAX_STEPS {
-        let (height, slope) = value(place);
+        let (height, step) = value(place);
         if height == 0.0 {
             return place;
         }
@@ -218,8 +241,12 @@ fn root_between(mut from: f64, mut to: f64, rises: bool, value: &impl Fn(f64) ->
         } else {
             to = place;
         }
-        let newton = place - height / slope;
-        let next = if from < newton && newton < to { newton } else { from.midpoint(to) };
+        let newton = place - step;
+        let is_inside = from < newton && newton < to;
+        if is_inside && (newton - place).abs() <= LAST_STEP * fast_min(newton - start, end - newton) {
+            return newton;
+        }
+        let next = if is_inside { newton } else { from.midpoint(to) };
         if next == place || next <= from || to <= next {
             return next;
         }
@@ -314,7 +341,7 @@ mod tests {
         // u⁴ − 240 u³ + 25449 u² − 1325880 u + 26471900.25, by Horner's rule.
         let value = |u: f64| {
             let height = (((u - 240.0) * u + 25_449.0) * u - 1_325_880.0) * u + 26_471_900.25;
-            (height, ((4.0 * u - 720.0) * u + 50_898.0) * u - 1_325_880.0)
+            (height, height / (((4.0 * u - 720.0) * u + 50_898.0) * u - 1_325_880.0))
         };
         let range = 0.0..200.0;
         let extrema = Cubic([-180.0, 50_898.0 / 4.0, -331_470.0]).roots(&range, false);

@@ -99,7 +99,7 @@ impl BoxRay {
     /// Does the same in vectors of this `level`.
     #[inline(always)]
     pub(crate) fn meets_at(&self, level: Level, boxes: &Boxes, range: [f32; 2], entry: &mut [f32; WIDTH]) -> u64 {
-        dispatch!(level, simd => meets(simd, self, boxes, range, entry)) 
+        dispatch!(level, simd => meets(simd, self, boxes, range, entry))
     }
 
     /// A distance along the ray as a place, which is relative to the start of the ray's copy. Its rounding is less than
