@@ -18,7 +18,7 @@ use tempfile::TempDir;
 const RUNS: usize = 3;
 
 /// A picture is larger where we are so fast that the clock would count, and smaller where POV-Ray is slow.
-const SIZES: [[u32; 2]; 3] = [[320, 240], [640, 480], [1280, 960]];
+const SIZES: [[u32; 2]; 4] = [[80, 60], [320, 240], [640, 480], [1280, 960]];
 /// Below this many seconds of ours the picture is larger.
 const TOO_FAST: f64 = 0.1;
 /// Above this many seconds of theirs it is smaller.
@@ -36,7 +36,7 @@ fn main() {
         let bench = Bench { scene, directory: directory.path() };
         match bench.size() {
             Some(size) => ratios.push((bench.scene.clone(), bench.compare(size))),
-            None => println!("| {} | 640×480 | {:.3} | not installed | | |", bench.scene, bench.ours(SIZES[1])),
+            None => println!("| {} | 640×480 | {:.3} | not installed | | |", bench.scene, bench.ours(SIZES[2])),
         }
     }
     if let Some(file) = svg {
@@ -66,8 +66,11 @@ struct Bench<'a> {
 impl Bench<'_> {
     /// The size of picture at which both programs can be measured; nothing without POV-Ray.
     fn size(&self) -> Option<[u32; 2]> {
-        let [small, usual, large] = SIZES;
+        let [tiny, small, usual, large] = SIZES;
         // Time grows with the number of pixels.
+        if self.theirs(tiny)? > TOO_SLOW {
+            return Some(tiny);
+        }
         if self.theirs(small)? > TOO_SLOW / 4.0 {
             return Some(small);
         }
